@@ -10,8 +10,8 @@
 #include "base/name_hint.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
+#include "io/csv/columns.h"
 #include "io/csv/guess_origin_and_azimuth_sense.h"
-#include "io/csv/table_dialect_and_column_names.h"
 #include "settings/initiation_method_names_and_configs.h"
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
@@ -190,7 +190,7 @@ static bool apply_setting_option(struct command_line *line, char letter, char *a
         keep_setting_as_typed(line, "--set", argument);
         return true;
     case 'N':
-        table_dialect_set_columns_option(argument);
+        columns_set_option(argument);
         keep_setting_as_typed(line, "--columns", argument);
         return true;
     case 'C':
@@ -475,7 +475,7 @@ void command_line_set_origin_and_places(struct command_line *line)
         set_csv_origin_and_warn_of_clockwise_azimuths(line, line->plot_files[i]);
     }
     if (line->num_plot_files > 0 && are_plot_files_regular(line)) {
-        table_dialect_fail_if_columns_option_unused();
+        columns_check_option_used();
     }
     parameters_locate_sensors(&line->parameters);
 }

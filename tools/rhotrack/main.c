@@ -9,7 +9,7 @@
 #include "base/name_hint.h"
 #include "command_line.h"
 #include "commands_and_parsed_line.h"
-#include "io/csv/table_dialect_and_column_names.h"
+#include "io/csv/columns.h"
 #include "rhotrack/rhotrack.h"
 
 #define INPUT_FORMATS                                                                              \
@@ -288,6 +288,6 @@ int main(int argc, char **argv)
     command_line_set_origin_and_places(&line);
     const int exit_code = command->run(&line);
 
-    table_dialect_fail_if_columns_option_unused();
+    columns_check_option_used();
     return exit_code;
 }

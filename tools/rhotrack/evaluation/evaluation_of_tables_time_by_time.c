@@ -9,7 +9,7 @@
 #include "base/common.h"
 #include "base/identity_to_index_map.h"
 #include "evaluation/track_rows_at_truth_times.h"
-#include "io/rows/read_truth_or_track_row.h"
+#include "io/rows/trajectory_row.h"
 #include "rhotrack/message.h"
 
 struct timed_point {
@@ -63,8 +63,8 @@ static struct points read_confirmed_and_coasting_points(const struct table *tabl
     struct trajectory_columns columns = trajectory_columns_find(table, parameters);
     struct points points = {.table = table,
                             .list = must_calloc(table->num_rows, sizeof *points.list),
-                            .has_z = columns.z >= 0,
-                            .has_vz = columns.vz >= 0};
+                            .has_z = columns.has_z,
+                            .has_vz = columns.in_file.at[COL_VZ_MPS] >= 0};
     for (size_t row = 0; row < table->num_rows; row++) {
         const struct trajectory_row path = trajectory_row_read(&columns, row);
         if (path.status == RHO_MESSAGE_TRACK_CONFIRMED ||

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "io/csv/columns.h"
 #include "io/scans/plot_scan_reader.h"
 #include "picture/interactive_map_page_parts.h"
 
@@ -140,9 +141,9 @@ struct claims {
 static void add_claims_of_table(struct claims *claims, const struct track_ids *ids,
                                 const struct table *table)
 {
-    const int time = table_need_column(table, "t_s"), id = table_need_column(table, "track_id");
-    const int sensor = table_find_column(table, "sensor_id"),
-              plot = table_find_column(table, "plot");
+    const struct columns columns = columns_find(table);
+    const int time = columns_need(&columns, COL_T_S), id = columns_need(&columns, COL_TRACK_ID);
+    const int sensor = columns.at[COL_SENSOR_ID], plot = columns.at[COL_PLOT];
     for (size_t row = 0; plot >= 0 && row < table->num_rows; row++) {
         const double index = table_number_or(table, row, plot, -1.0);
         struct claim claim = {0};

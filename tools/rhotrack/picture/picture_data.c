@@ -11,7 +11,7 @@
 #include "io/log/lcm_log.h"
 #include "io/log/log_messages_to_table.h"
 #include "io/log/log_scans.h"
-#include "io/rows/read_truth_or_track_row.h"
+#include "io/rows/trajectory_row.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/message.h"
 
@@ -55,13 +55,13 @@ static void add_plots_of_table(struct picture_data *data, const struct table *ta
                                const struct parameters *parameters)
 {
     struct plot_points *points = &data->plots;
-    const bool is_polar = table_find_column(table, "range_m") >= 0;
     struct measurement_row_columns columns =
         measurement_row_columns_find(table, parameters, RECORD_PLOTS, false);
+    const bool is_polar = columns.in_file.at[COL_RANGE_M] >= 0;
     char reason[ROW_REASON_BYTES];
     for (size_t row = 0; row < table->num_rows; row++) {
         struct measurement_row record;
-        if (!measurement_row_read(table, &columns, row, parameters, &record, reason)) {
+        if (!measurement_row_read(&columns, row, parameters, &record, reason)) {
             table_fail_at_row(table, row, "%s", reason);
         }
         if (record.has_measurement) {

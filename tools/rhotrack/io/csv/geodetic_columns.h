@@ -15,8 +15,7 @@
 #include <stdint.h>
 
 #include "io/csv/radar_angles_to_common_north_and_level.h"
-#include "io/csv/row_cells_read_and_check.h"
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/row_cells.h"
 #include "settings/parameters.h"
 
 struct geodetic_columns;
@@ -34,14 +33,7 @@ void geodetic_columns_close(
 /* Whether the table has lat_deg and lon_deg as positions of plots or targets; false for NULL. */
 bool geodetic_columns_has_place_columns(const struct geodetic_columns *geodetic);
 
-/*
- * The bool functions that follow and take a row_check return false where the row is bad, with the
- * reason set; geodetic_columns_row_has_place only answers its question.
- */
-
-/* Whether the row has a value in lat_deg, lon_deg or alt_m. */
-bool geodetic_columns_row_has_place(const struct geodetic_columns *geodetic,
-                                    const struct row_check *check);
+/* The functions that follow return false where the row is bad, with the reason set. */
 
 /* Reads the row's position. Without alt_m it is taken at the origin's height, and z_m is 0. */
 bool geodetic_columns_read_place(struct geodetic_columns *geodetic, const struct row_check *check,

@@ -67,10 +67,7 @@ void table_free(struct table *table);
 /* Exit 2 where the table has a header and no rows. */
 void table_need_rows(const struct table *table);
 
-/*
- * Index of a column, or -1; table_need_column exits with 2 where it is missing, and lists the
- * columns of the file.
- */
+/* Index of a column, or -1. */
 static inline int table_find_column(const struct table *table, const char *name)
 {
     for (size_t i = 0; i < table->num_columns; i++) {
@@ -80,8 +77,6 @@ static inline int table_find_column(const struct table *table, const char *name)
     }
     return -1;
 }
-
-int table_need_column(const struct table *table, const char *name);
 
 /*
  * Reading cells. The functions that return a text return NULL and set the value, or return the

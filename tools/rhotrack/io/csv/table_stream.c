@@ -19,7 +19,8 @@
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_tracks_to_table.h"
-#include "io/csv/table_dialect_and_column_names.h"
+#include "io/csv/columns.h"
+#include "io/csv/dialect.h"
 
 #define FIRST_CAPACITY (1u << 16)
 #define FIRST_TEXT 1024u
@@ -159,8 +160,7 @@ static bool is_blank_or_comment(const char *line, size_t length)
 /* ---- Rows ---- */
 
 /*
- * Whether a name points into the file's text; others are constants
- * (table_dialect_and_column_names.h).
+ * Whether a name points into the file's text; others are constants (columns.h).
  */
 static bool is_name_pointing_into_table_text(const struct table_stream *stream, const char *name)
 {
@@ -209,7 +209,7 @@ static void append_parsed_cell(void *cell, size_t bytes, void *user)
     memcpy(text, cell, bytes);
     text[bytes] = '\0';
     if (stream->delimiter != ',') {
-        table_dialect_point_for_comma(text);
+        dialect_point_for_comma(text);
     }
     stream->text_used += bytes + 1;
     stream->row[stream->row_cells++] = text;
@@ -286,7 +286,7 @@ static void process_header_row(struct table_stream *stream)
             }
         }
     }
-    table_dialect_name_columns(table);
+    columns_rename(table);
 }
 
 static void add_row_to_table(struct table_stream *stream)
@@ -328,7 +328,7 @@ static void process_complete_row(struct table_stream *stream)
 /* Sets the separator of cells from the header line. */
 static void set_delimiter_from_header(struct table_stream *stream, const char *line, size_t length)
 {
-    stream->delimiter = table_dialect_find_delimiter(line, length);
+    stream->delimiter = dialect_find_delimiter(line, length);
     csv_free(&stream->parser);
     restart_csv_parser_with_delimiter(stream);
 }
@@ -339,7 +339,7 @@ static const char *join_blanks(struct table_stream *stream, const char *line, si
         stream->joined_capacity = 2 * *length;
         stream->joined = must_realloc(stream->joined, stream->joined_capacity);
     }
-    *length = table_dialect_join_blanks(line, *length, stream->joined);
+    *length = dialect_join_blanks(line, *length, stream->joined);
     return stream->joined;
 }
 

@@ -21,20 +21,19 @@ static int int_or_zero_of_cell(double cell)
 
 static void add_track_row(struct geojson *geojson, const struct rows *rows, const struct row *row)
 {
-    static const char *const state[] = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
+    static const enum column_id state[] = {COL_X_M,    COL_Y_M,    COL_Z_M,
+                                           COL_VX_MPS, COL_VY_MPS, COL_VZ_MPS};
     const double *cells = rows_cells(rows, row);
     struct geojson_row track = {
         .time_us = row->time_us,
-        .track_id = (int32_t)cells[rows_existing_column_index(rows->kind, "track_id")],
-        .status =
-            rows_track_status_name((int)cells[rows_existing_column_index(rows->kind, "status")]),
-        .sigma_m = rows_float_or_zero(cells[rows_existing_column_index(rows->kind, "sigma_m")]),
-        .hits = int_or_zero_of_cell(cells[rows_existing_column_index(rows->kind, "hits")]),
-        .misses = int_or_zero_of_cell(cells[rows_existing_column_index(rows->kind, "misses")])};
+        .track_id = (int32_t)cells[rows_column_index(rows->kind, COL_TRACK_ID)],
+        .status = rows_track_status_name((int)cells[rows_column_index(rows->kind, COL_STATUS)]),
+        .sigma_m = rows_float_or_zero(cells[rows_column_index(rows->kind, COL_SIGMA_M)]),
+        .hits = int_or_zero_of_cell(cells[rows_column_index(rows->kind, COL_HITS)]),
+        .misses = int_or_zero_of_cell(cells[rows_column_index(rows->kind, COL_MISSES)])};
 
     for (int i = 0; i < 6; i++) {
-        track.state[i] =
-            rows_float_or_zero(cells[rows_existing_column_index(rows->kind, state[i])]);
+        track.state[i] = rows_float_or_zero(cells[rows_column_index(rows->kind, state[i])]);
     }
     geojson_add_row(geojson, &track);
 }

@@ -1,11 +1,48 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/rows/rows_in_memory.h"
 
+#include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/common.h"
+
+const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS] = {
+    [ROWS_PLOTS] = &rows_kind_plots,       [ROWS_POLAR] = &rows_kind_polar,
+    [ROWS_BEARINGS] = &rows_kind_bearings, [ROWS_TRUTH] = &rows_kind_truth,
+    [ROWS_TRACKS] = &rows_kind_tracks,
+};
+
+/* Whether a text is a sensor number as channels have it: without leading zeros or a plus sign. */
+static bool is_sensor_number(const char *text)
+{
+    char again[16];
+    long number;
+
+    errno = 0;
+    number = strtol(text, NULL, 10);
+    if (errno || number < INT16_MIN || number > INT16_MAX) {
+        return false;
+    }
+    snprintf(again, sizeof again, "%ld", number);
+    return strcmp(again, text) == 0;
+}
+
+const struct rows_kind *rows_kind_of_channel(const char *channel)
+{
+    for (int i = 0; i < NUM_ROWS_KINDS; i++) {
+        const struct rows_kind *kind = rows_kinds[i];
+        size_t length = strlen(kind->channel);
+
+        if (strncmp(channel, kind->channel, length) == 0 &&
+            (kind->has_sensor ? is_sensor_number(channel + length) : channel[length] == '\0')) {
+            return kind;
+        }
+    }
+    return NULL;
+}
 
 const char *rows_track_status_name(int status)
 {
@@ -19,11 +56,11 @@ const char *rows_track_status_name(int status)
     return names[status];
 }
 
-int rows_existing_column_index(const struct rows_kind *kind, const char *name)
+int rows_column_index(const struct rows_kind *kind, enum column_id id)
 {
     int i = 0;
 
-    while (strcmp(kind->columns[i].name, name) != 0) {
+    while (kind->columns[i].id != id) {
         i++;
     }
     return i;
@@ -88,8 +125,6 @@ bool rows_row_has_measurement(const struct rows *rows, const struct row *row)
     return false;
 }
 
-/* ---- For the kinds ---- */
-
 bool rows_is_cell_empty(double cell)
 {
     return isnan(cell);
@@ -108,6 +143,19 @@ bool rows_is_plus_zero(float value)
 double rows_zero_to_empty_cell(float value)
 {
     return rows_is_plus_zero(value) ? (double)NAN : (double)value;
+}
+
+double *rows_begin_message(struct rows *rows, struct rows_message *message, const struct row *key,
+                           int16_t part, int16_t num_parts, int count)
+{
+    double *cells = rows_add_row(rows, key);
+
+    message->key = *key;
+    message->part = part;
+    message->num_parts = num_parts;
+    message->first = rows->count;
+    message->count = (size_t)count;
+    return cells;
 }
 
 double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/row_cells.h"
 
 #define OWN_TIME_MAX_US 60000000 /* limit of dt_us in messages; scan_interval_s is never longer */
 
@@ -21,8 +21,6 @@ struct scan_grouping {
     /* for lists without numbers: index of the row before with the same identity and time */
     size_t *before;
 };
-
-/* ---- Rows that belong together ---- */
 
 static int by_scan_and_order(const void *a, const void *b)
 {
@@ -95,7 +93,7 @@ static const char *find_differing_column(const struct scan_grouping *grouping, c
 {
     for (int i = 0; i < grouping->kind->num_columns; i++) {
         if ((grouping->kind->columns[i].flags & flag) && !is_same_cell(cells[i], others[i])) {
-            return grouping->kind->columns[i].name;
+            return column_name(grouping->kind->columns[i].id);
         }
     }
     return NULL;
@@ -148,8 +146,6 @@ static bool joins_scan(const struct scan_grouping *grouping, size_t first, size_
     return row->time_us == start->time_us ||
            (row->time_us > start->time_us && row->time_us - grouping->interval_us < start->time_us);
 }
-
-/* ---- What rows of a scan have in common ---- */
 
 /*
  * Checks that a row with a measurement agrees with the scan's first such row, and refuses it
@@ -222,8 +218,6 @@ static bool check_row_fits_scan(struct scan_grouping *grouping, const struct row
     return true;
 }
 
-/* ---- Scans ---- */
-
 /*
  * Time of a scan: with numbers that of its row without a measurement, which may stand anywhere,
  * else of its first row.
@@ -239,6 +233,18 @@ static int64_t time_of_empty_row_or_first_row_us(const struct scan_grouping *gro
     return grouping->rows[first].time_us;
 }
 
+/* Number of rows, from the first of the rest of a scan on, that fit one message. */
+static size_t rows_that_fit(const struct rows_kind *kind, const struct rows_part *rest)
+{
+    size_t count = rest->count > 0;
+
+    while (count < rest->count && count < kind->part_max &&
+           (!kind->fit || kind->fit(rows_part_cells(rest, 0), rows_part_cells(rest, count)))) {
+        count++;
+    }
+    return count;
+}
+
 static size_t count_parts(const struct scan_grouping *grouping, const struct rows_scan *scan)
 {
     struct rows_part rest = {
@@ -246,7 +252,7 @@ static size_t count_parts(const struct scan_grouping *grouping, const struct row
     size_t parts = 0;
 
     while (rest.count > 0) {
-        size_t taken = grouping->kind->fit(&rest);
+        size_t taken = rows_that_fit(grouping->kind, &rest);
 
         rest.first += taken;
         rest.count -= taken;
@@ -363,8 +369,6 @@ void rows_to_messages_free(struct rows_to_messages *scans)
     free(scans->list);
 }
 
-/* ---- Messages ---- */
-
 static void format_channel_name(const struct rows_kind *kind, int32_t sensor_id, char *channel)
 {
     if (kind->has_sensor) {
@@ -387,7 +391,7 @@ bool rows_to_messages_next_message(const struct rows_to_messages *scans, struct 
     part.scan = &scans->list[at->scan];
     part.first = part.scan->first + at->row;
     part.count = part.scan->count - at->row;
-    part.count = part.count > 0 ? kind->fit(&part) : 0;
+    part.count = rows_that_fit(kind, &part);
     output->utime = part.scan->due_us;
     format_channel_name(kind, part.scan->head.sensor_id, output->channel);
     output->size = kind->encode(&part, output->data, &field);

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/row_cells.h"
 
 #define SCAN_NUMBERS_NONE SIZE_MAX
 

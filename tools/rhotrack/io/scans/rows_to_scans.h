@@ -24,7 +24,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/row_cells.h"
 #include "io/scans/hash_table_of_scans_by_number.h"
 #include "rhotrack/types.h"
 

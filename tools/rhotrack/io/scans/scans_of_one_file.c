@@ -122,7 +122,7 @@ static void find_columns(struct scans_of_one_file *source, const struct table *t
     source->columns = measurement_row_columns_find(table, source->parameters, source->options.kind,
                                                    !source->options.may_lack_sensor);
     source->has_columns = true;
-    if (source->columns.received_s >= 0) {
+    if (source->columns.in_file.at[COL_RECEIVED_S] >= 0) {
         source->gather.begun_max = FOLLOW_BEGUN_MAX;
     }
 }
@@ -146,14 +146,14 @@ static void number_row_by_turn(const struct scans_of_one_file *source, struct me
 static void process_table_row(struct scans_of_one_file *source, const struct table *table)
 {
     char reason[ROW_REASON_BYTES];
-    const struct row_check check = {.table = table, .row = 0, .reason = reason};
+    const struct row_check check = {.columns = &source->columns.in_file, .reason = reason};
     struct gathered_scan *scan = NULL;
     struct measurement_row row;
     bool is_good;
 
     find_columns(source, table);
-    is_good = measurement_row_read(table, &source->columns, 0, source->parameters, &row, reason);
-    if (is_good && source->columns.received_s >= 0) {
+    is_good = measurement_row_read(&source->columns, 0, source->parameters, &row, reason);
+    if (is_good && source->columns.in_file.at[COL_RECEIVED_S] >= 0) {
         rows_to_scans_set_next_reception(&source->gather, row.received_us);
     }
     if (is_good) {
@@ -293,7 +293,7 @@ static bool next_table_scan(struct scans_of_one_file *source, struct sensor_scan
             return (source->is_over || source->is_complete) &&
                    reorder_buffer_take(&source->reorder, true, scan);
         }
-        if (source->columns.received_s < 0) {
+        if (source->columns.in_file.at[COL_RECEIVED_S] < 0) {
             *scan = next;
             return true;
         }
@@ -404,12 +404,12 @@ bool scans_of_one_file_next(struct scans_of_one_file *source, struct sensor_scan
  */
 static bool may_have_turns(const struct scans_of_one_file *source)
 {
-    const struct measurement_row_columns *columns = &source->columns;
+    const int *at = source->columns.in_file.at;
     struct stat status;
 
     return source->has_columns && source->options.kind == RECORD_PLOTS &&
-           antenna_turns_are_wanted(source->parameters) && columns->scan < 0 &&
-           columns->received_s < 0 && columns->sector_from_rad < 0 &&
+           antenna_turns_are_wanted(source->parameters) && at[COL_SCAN] < 0 &&
+           at[COL_RECEIVED_S] < 0 && at[COL_SECTOR_FROM_RAD] < 0 &&
            strcmp(source->path, "-") != 0 && stat(source->path, &status) == 0 &&
            S_ISREG(status.st_mode);
 }
@@ -444,8 +444,7 @@ static void find_antenna_turns(struct scans_of_one_file *source)
     table_stream_suppress_asterix_end_summary(stream);
     source->turns = antenna_turns_start();
     while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
-        if (measurement_row_read(table_stream_table(stream), &columns, 0, source->parameters, &row,
-                                 reason) &&
+        if (measurement_row_read(&columns, 0, source->parameters, &row, reason) &&
             row.has_measurement) {
             goes_on =
                 antenna_turns_add_row_and_wants_more(source->turns, row.sensor_id, row.time_us,

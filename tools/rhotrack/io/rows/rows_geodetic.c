@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#include "io/rows/rows_lat_lon_to_local_frame.h"
+#include "io/rows/rows_geodetic.h"
 
 #include <math.h>
-#include <string.h>
 
 #define TURN 6.283185307179586
 
@@ -28,19 +27,19 @@ bool rows_geodetic_columns_replaces_column(const struct rows_geodetic_columns *g
                                            const struct rows_column *column)
 {
     return geodetic_columns_has_place_columns(geodetic->geodetic) &&
-           (strcmp(column->name, "x_m") == 0 || strcmp(column->name, "y_m") == 0);
+           (column->id == COL_X_M || column->id == COL_Y_M);
 }
 
-static double *cell_of_named_column(const struct rows_geodetic_columns *geodetic, double *cells,
-                                    const char *name)
+static double *cell_of(const struct rows_geodetic_columns *geodetic, double *cells,
+                       enum column_id column)
 {
-    return &cells[rows_existing_column_index(geodetic->kind, name)];
+    return &cells[rows_column_index(geodetic->kind, column)];
 }
 
 static void put_float_cell(const struct rows_geodetic_columns *geodetic, double *cells,
-                           const char *name, double value)
+                           enum column_id column, double value)
 {
-    *cell_of_named_column(geodetic, cells, name) = (double)(float)value;
+    *cell_of(geodetic, cells, column) = (double)(float)value;
 }
 
 static double cell_or(double cell, double otherwise)
@@ -48,29 +47,26 @@ static double cell_or(double cell, double otherwise)
     return rows_is_cell_empty(cell) ? otherwise : cell;
 }
 
-/* ---- Places ---- */
-
 static bool fill_place_cells(const struct rows_geodetic_columns *geodetic,
                              const struct row_check *check, double *cells)
 {
     double place_m[3];
     bool has_alt;
 
-    if (geodetic->kind->has_sensor && !geodetic_columns_row_has_place(geodetic->geodetic, check)) {
+    if (geodetic->kind->has_sensor && !row_has_cell(check, COL_LAT_DEG) &&
+        !row_has_cell(check, COL_LON_DEG) && !row_has_cell(check, COL_ALT_M)) {
         return true; /* a scan without detections */
     }
     if (!geodetic_columns_read_place(geodetic->geodetic, check, place_m, &has_alt)) {
         return false;
     }
-    put_float_cell(geodetic, cells, "x_m", place_m[0]);
-    put_float_cell(geodetic, cells, "y_m", place_m[1]);
+    put_float_cell(geodetic, cells, COL_X_M, place_m[0]);
+    put_float_cell(geodetic, cells, COL_Y_M, place_m[1]);
     if (has_alt) {
-        put_float_cell(geodetic, cells, "z_m", place_m[2]);
+        put_float_cell(geodetic, cells, COL_Z_M, place_m[2]);
     }
     return true;
 }
-
-/* ---- Radars ---- */
 
 static void rotate_angle_cell(double *cell, double turn_rad)
 {
@@ -88,14 +84,12 @@ static void put_radar_place_and_sector(const struct rows_geodetic_columns *geode
 {
     const double *place_m = radar_axes_place_m(frame);
 
-    rotate_angle_cell(cell_of_named_column(geodetic, cells, "sector_from_rad"),
-                      radar_axes_turn_rad(frame));
-    rotate_angle_cell(cell_of_named_column(geodetic, cells, "sector_to_rad"),
-                      radar_axes_turn_rad(frame));
+    rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_FROM_RAD), radar_axes_turn_rad(frame));
+    rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_TO_RAD), radar_axes_turn_rad(frame));
     if (geodetic->kind == &rows_kind_polar) {
-        put_float_cell(geodetic, cells, "sensor_x_m", place_m[0]);
-        put_float_cell(geodetic, cells, "sensor_y_m", place_m[1]);
-        put_float_cell(geodetic, cells, "sensor_z_m", place_m[2]);
+        put_float_cell(geodetic, cells, COL_SENSOR_X_M, place_m[0]);
+        put_float_cell(geodetic, cells, COL_SENSOR_Y_M, place_m[1]);
+        put_float_cell(geodetic, cells, COL_SENSOR_Z_M, place_m[2]);
     }
 }
 
@@ -105,18 +99,17 @@ static struct geodetic_columns_polar read_polar_cells(const struct rows_geodetic
     const struct parameters *parameters = geodetic->parameters;
     double sigma_range_m = parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
                                                       parameters->value[PARAMETER_SIGMA_RANGE_M]);
-    double elevation_rad = *cell_of_named_column(geodetic, cells, "elevation_rad");
+    double elevation_rad = *cell_of(geodetic, cells, COL_ELEVATION_RAD);
 
     return (struct geodetic_columns_polar){
         .sensor_id = sensor_id,
-        .place_m = {cell_or(*cell_of_named_column(geodetic, cells, "sensor_x_m"), 0),
-                    cell_or(*cell_of_named_column(geodetic, cells, "sensor_y_m"), 0),
-                    cell_or(*cell_of_named_column(geodetic, cells, "sensor_z_m"), 0)},
-        .look = {*cell_of_named_column(geodetic, cells, "range_m"),
-                 *cell_of_named_column(geodetic, cells, "azimuth_rad"), cell_or(elevation_rad, 0)},
+        .place_m = {cell_or(*cell_of(geodetic, cells, COL_SENSOR_X_M), 0),
+                    cell_or(*cell_of(geodetic, cells, COL_SENSOR_Y_M), 0),
+                    cell_or(*cell_of(geodetic, cells, COL_SENSOR_Z_M), 0)},
+        .look = {*cell_of(geodetic, cells, COL_RANGE_M), *cell_of(geodetic, cells, COL_AZIMUTH_RAD),
+                 cell_or(elevation_rad, 0)},
         .has_elevation = !rows_is_cell_empty(elevation_rad),
-        .sigma_range_m =
-            cell_or(*cell_of_named_column(geodetic, cells, "sigma_range_m"), sigma_range_m)};
+        .sigma_range_m = cell_or(*cell_of(geodetic, cells, COL_SIGMA_RANGE_M), sigma_range_m)};
 }
 
 /*
@@ -145,12 +138,12 @@ static bool rotate_azimuth_and_elevation_to_local_frame(
     if (!geodetic_columns_turn_polar_to_local_frame(geodetic->geodetic, check, &polar)) {
         return false;
     }
-    put_float_cell(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
+    put_float_cell(geodetic, cells, COL_AZIMUTH_RAD, polar.look.azimuth_rad);
     if (polar.has_elevation) {
-        put_float_cell(geodetic, cells, "elevation_rad", polar.look.elevation_rad);
+        put_float_cell(geodetic, cells, COL_ELEVATION_RAD, polar.look.elevation_rad);
     }
     if (polar.has_elevation && !had_elevation) {
-        put_float_cell(geodetic, cells, "sigma_elevation_rad", polar.sigma_elevation_rad);
+        put_float_cell(geodetic, cells, COL_SIGMA_ELEVATION_RAD, polar.sigma_elevation_rad);
     }
     return true;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_tracks_message_codec: rows of tracks, and track_list_t messages. Messages have the
+ * track_rows: rows of tracks, and track_list_t messages. Messages have the
  * covariance, files sigma_m and sigma_mps, and the covariance where requested: a file without it
  * gives a covariance that is equal on all measured axes, with these sigmas.
  */
@@ -34,51 +34,53 @@ enum {
 };
 
 #define COVARIANCE_COLUMN(index, name)                                                             \
-    [COVARIANCE + (index)] = {"cov_" name, COLUMN_COVARIANCE, 0, NULL, NULL}
+    [COVARIANCE + (index)] = {COL_COV_##name, COLUMN_COVARIANCE, 0}
 
 static const struct rows_column columns[NUM_COLUMNS] = {
-    [TRACK_ID] = {"track_id", IN_FILE | COLUMN_MEASURED | COLUMN_INT32, 0, NULL, NULL},
-    [STATUS] = {"status", IN_FILE | COLUMN_STATUS, 0, NULL, NULL},
-    [STATE] = {"x_m", IN_FILE, 0, NULL, NULL},
-    [STATE + 1] = {"y_m", IN_FILE, 0, NULL, NULL},
-    [STATE + 2] = {"z_m", COLUMN_ALWAYS, 0, NULL, NULL},
-    [STATE + 3] = {"vx_mps", COLUMN_ALWAYS, 0, NULL, NULL},
-    [STATE + 4] = {"vy_mps", COLUMN_ALWAYS, 0, NULL, NULL},
-    [STATE + 5] = {"vz_mps", COLUMN_ALWAYS, 0, NULL, NULL},
-    [ACCELERATION] = {"ax_mps2", COLUMN_ALWAYS, 0, NULL, NULL},
-    [ACCELERATION + 1] = {"ay_mps2", COLUMN_ALWAYS, 0, NULL, NULL},
-    [ACCELERATION + 2] = {"az_mps2", COLUMN_ALWAYS, 0, NULL, NULL},
-    [SIGMA_M] = {"sigma_m", COLUMN_ALWAYS, 0, NULL, NULL},
-    [SIGMA_MPS] = {"sigma_mps", COLUMN_ALWAYS, 0, NULL, NULL},
-    [HITS] = {"hits", INT16, 0, NULL, NULL},
-    [MISSES] = {"misses", INT16, 0, NULL, NULL},
-    [SENSOR_ID] = {"sensor_id", INT16, 0, NULL, NULL},
-    [PLOT] = {"plot", INT16, 0, NULL, NULL},
-    COVARIANCE_COLUMN(0, "x_x"),
-    COVARIANCE_COLUMN(1, "y_x"),
-    COVARIANCE_COLUMN(2, "y_y"),
-    COVARIANCE_COLUMN(3, "z_x"),
-    COVARIANCE_COLUMN(4, "z_y"),
-    COVARIANCE_COLUMN(5, "z_z"),
-    COVARIANCE_COLUMN(6, "vx_x"),
-    COVARIANCE_COLUMN(7, "vx_y"),
-    COVARIANCE_COLUMN(8, "vx_z"),
-    COVARIANCE_COLUMN(9, "vx_vx"),
-    COVARIANCE_COLUMN(10, "vy_x"),
-    COVARIANCE_COLUMN(11, "vy_y"),
-    COVARIANCE_COLUMN(12, "vy_z"),
-    COVARIANCE_COLUMN(13, "vy_vx"),
-    COVARIANCE_COLUMN(14, "vy_vy"),
-    COVARIANCE_COLUMN(15, "vz_x"),
-    COVARIANCE_COLUMN(16, "vz_y"),
-    COVARIANCE_COLUMN(17, "vz_z"),
-    COVARIANCE_COLUMN(18, "vz_vx"),
-    COVARIANCE_COLUMN(19, "vz_vy"),
-    COVARIANCE_COLUMN(20, "vz_vz"),
-    [UPDATE_AGE_US] = {"update_age_us", COLUMN_INT32 | COLUMN_NOT_ZERO, 0, NULL, NULL},
-    [SCORE_NAT] = {"score_nat", COLUMN_NOT_ZERO, 0, NULL, NULL},
-    [MANEUVER_PROBABILITY] = {"maneuver_probability", COLUMN_NOT_ZERO, 0, NULL, NULL},
+    [TRACK_ID] = {COL_TRACK_ID, IN_FILE | COLUMN_MEASURED | COLUMN_INT32, 0},
+    [STATUS] = {COL_STATUS, IN_FILE | COLUMN_STATUS, 0},
+    [STATE] = {COL_X_M, IN_FILE, 0},
+    [STATE + 1] = {COL_Y_M, IN_FILE, 0},
+    [STATE + 2] = {COL_Z_M, COLUMN_ALWAYS, 0},
+    [STATE + 3] = {COL_VX_MPS, COLUMN_ALWAYS, 0},
+    [STATE + 4] = {COL_VY_MPS, COLUMN_ALWAYS, 0},
+    [STATE + 5] = {COL_VZ_MPS, COLUMN_ALWAYS, 0},
+    [ACCELERATION] = {COL_AX_MPS2, COLUMN_ALWAYS, 0},
+    [ACCELERATION + 1] = {COL_AY_MPS2, COLUMN_ALWAYS, 0},
+    [ACCELERATION + 2] = {COL_AZ_MPS2, COLUMN_ALWAYS, 0},
+    [SIGMA_M] = {COL_SIGMA_M, COLUMN_ALWAYS, 0},
+    [SIGMA_MPS] = {COL_SIGMA_MPS, COLUMN_ALWAYS, 0},
+    [HITS] = {COL_HITS, INT16, 0},
+    [MISSES] = {COL_MISSES, INT16, 0},
+    [SENSOR_ID] = {COL_SENSOR_ID, INT16, 0},
+    [PLOT] = {COL_PLOT, INT16, 0},
+    COVARIANCE_COLUMN(0, X_X),
+    COVARIANCE_COLUMN(1, Y_X),
+    COVARIANCE_COLUMN(2, Y_Y),
+    COVARIANCE_COLUMN(3, Z_X),
+    COVARIANCE_COLUMN(4, Z_Y),
+    COVARIANCE_COLUMN(5, Z_Z),
+    COVARIANCE_COLUMN(6, VX_X),
+    COVARIANCE_COLUMN(7, VX_Y),
+    COVARIANCE_COLUMN(8, VX_Z),
+    COVARIANCE_COLUMN(9, VX_VX),
+    COVARIANCE_COLUMN(10, VY_X),
+    COVARIANCE_COLUMN(11, VY_Y),
+    COVARIANCE_COLUMN(12, VY_Z),
+    COVARIANCE_COLUMN(13, VY_VX),
+    COVARIANCE_COLUMN(14, VY_VY),
+    COVARIANCE_COLUMN(15, VZ_X),
+    COVARIANCE_COLUMN(16, VZ_Y),
+    COVARIANCE_COLUMN(17, VZ_Z),
+    COVARIANCE_COLUMN(18, VZ_VX),
+    COVARIANCE_COLUMN(19, VZ_VY),
+    COVARIANCE_COLUMN(20, VZ_VZ),
+    [UPDATE_AGE_US] = {COL_UPDATE_AGE_US, COLUMN_INT32 | COLUMN_NOT_ZERO, 0},
+    [SCORE_NAT] = {COL_SCORE_NAT, COLUMN_NOT_ZERO, 0},
+    [MANEUVER_PROBABILITY] = {COL_MANEUVER_PROBABILITY, COLUMN_NOT_ZERO, 0},
 };
+
+ROWS_CHECKED_CODEC(track_list)
 
 /* Index of a variance in the covariance, which is stored as its lower triangle. */
 static int variance_index(int state)
@@ -104,14 +106,6 @@ static const char *why_track_sigmas_invalid(const double *cells)
     }
     return NULL;
 }
-
-static size_t rows_in_one_message(const struct rows_part *rest)
-{
-    return rest->count < RHO_MESSAGE_TRACK_LIST_MAX_TRACKS ? rest->count
-                                                           : RHO_MESSAGE_TRACK_LIST_MAX_TRACKS;
-}
-
-/* ---- Rows to messages ---- */
 
 static bool has_covariance(const double *cells)
 {
@@ -176,8 +170,6 @@ static struct rho_message_track message_track_of(const double *cells)
 static size_t encode_track_list_part(const struct rows_part *part, uint8_t *buffer,
                                      const char **field)
 {
-    struct rho_message_place place;
-    size_t size;
     struct rho_message_track_list message = {
         .utime = part->scan->utime,
         .scan = part->scan->head.scan,
@@ -191,16 +183,8 @@ static size_t encode_track_list_part(const struct rows_part *part, uint8_t *buff
     for (size_t i = 0; i < part->count; i++) {
         message.tracks[i] = message_track_of(rows_part_cells(part, i));
     }
-    if (rho_message_track_list_validate(&message, &place) != RHO_OK) {
-        *field = rho_message_track_list_field(&place);
-        return 0;
-    }
-    return rho_message_track_list_encode(&message, buffer, ROWS_MESSAGE_BYTES, &size) == RHO_OK
-               ? size
-               : 0;
+    return encode_checked(&message, buffer, field);
 }
-
-/* ---- Messages to rows ---- */
 
 /*
  * Root mean variance over the measured axes, as the tracker computes it: the axes on which position
@@ -251,23 +235,14 @@ static enum rho_status decode_track_list_to_rows(const uint8_t *data, size_t siz
                                                  const char **field)
 {
     struct rho_message_track_list message;
-    struct rho_message_place place;
-    enum rho_status status = rho_message_track_list_decode(data, size, &message);
+    const enum rho_status status = decode_checked(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;
     }
-    status = rho_message_track_list_validate(&message, &place);
-    if (status != RHO_OK) {
-        *field = rho_message_track_list_field(&place);
-        return status;
-    }
-    out->key = (struct row){.time_us = message.utime, .epoch = message.epoch, .scan = message.scan};
-    out->part = message.part;
-    out->num_parts = message.num_parts;
-    rows_add_message_row(rows, out, 0);
-    out->first = rows->count;
-    out->count = (size_t)message.num_tracks;
+    const struct row key = {.time_us = message.utime, .epoch = message.epoch, .scan = message.scan};
+
+    rows_begin_message(rows, out, &key, message.part, message.num_parts, message.num_tracks);
     for (int i = 0; i < message.num_tracks; i++) {
         put_track_cells(rows_add_message_row(rows, out, 0), &message.tracks[i]);
     }
@@ -284,7 +259,7 @@ const struct rows_kind rows_kind_tracks = {
     .columns = columns,
     .num_columns = NUM_COLUMNS,
     .why_not = why_track_sigmas_invalid,
-    .fit = rows_in_one_message,
+    .part_max = RHO_MESSAGE_TRACK_LIST_MAX_TRACKS,
     .encode = encode_track_list_part,
     .decode = decode_track_list_to_rows,
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "io/csv/table_dialect_and_column_names.h"
+#include "io/csv/columns.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -9,54 +9,96 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 
-/* ---- Cells ---- */
-
-char table_dialect_find_delimiter(const char *line, size_t length)
-{
-    static const char delimiters[] = ",;\t";
-
-    for (const char *delimiter = delimiters; *delimiter; delimiter++) {
-        bool is_quoted = false;
-
-        for (size_t i = 0; i < length; i++) {
-            is_quoted ^= line[i] == '"';
-            if (line[i] == *delimiter && !is_quoted) {
-                return *delimiter;
-            }
-        }
-    }
-    return memchr(line, '"', length) ? ',' : ' ';
-}
-
-size_t table_dialect_join_blanks(const char *line, size_t length, char *copy)
-{
-    size_t used = 0;
-
-    for (size_t i = 0; i < length; i++) {
-        if (line[i] == '\r' || line[i] == '\n') {
-            copy[used++] = line[i];
-        } else if (line[i] != ' ' && line[i] != '\t') {
-            if (used > 0 && (line[i - 1] == ' ' || line[i - 1] == '\t')) {
-                copy[used++] = ',';
-            }
-            copy[used++] = line[i];
-        }
-    }
-    return used;
-}
-
-void table_dialect_point_for_comma(char *cell)
-{
-    char *comma = strchr(cell, ',');
-
-    if (comma && cell[strspn(cell, "+-0123456789,eE")] == '\0' && !strchr(comma + 1, ',')) {
-        *comma = '.';
-    }
-}
-
-/* ---- Names of columns ---- */
-
+#define TURN 6.283185307179586
+#define DEG_RAD 0.017453292519943295
 #define RAD_DEG (180 / 3.14159265358979323846)
+
+#define COLUMN_TEXT(id, name) name,
+static const char *const column_names[NUM_COLUMN_IDS] = {
+    COLUMNS_NAMED(COLUMN_TEXT) COLUMNS_WITH_OTHER_NAMES(COLUMN_TEXT) COLUMNS_OF_TRACKS(COLUMN_TEXT)
+        COLUMNS_OF_CLUTTER_MAP(COLUMN_TEXT)};
+
+#define COLUMN_COUNT(id, name) +1
+enum { NUM_NAMED = 0 COLUMNS_NAMED(COLUMN_COUNT) };
+
+const char *column_name(enum column_id column)
+{
+    return column_names[column];
+}
+
+/* Name of a column in degrees that may replace the one in radians, or NULL. */
+static const char *name_in_degrees(enum column_id column)
+{
+    return column == COL_AZIMUTH_RAD     ? "azimuth_deg"
+           : column == COL_ELEVATION_RAD ? "elevation_deg"
+                                         : NULL;
+}
+
+/* Which columns a table has. */
+
+struct columns columns_find(const struct table *table)
+{
+    struct columns columns = {.table = table};
+
+    for (int i = 0; i < NUM_COLUMN_IDS; i++) {
+        columns.at[i] = table_find_column(table, column_names[i]);
+        if (columns.at[i] < 0 && name_in_degrees((enum column_id)i)) {
+            columns.at[i] = table_find_column(table, name_in_degrees((enum column_id)i));
+        }
+    }
+    return columns;
+}
+
+void columns_need_both(const struct columns *columns, enum column_id first, enum column_id second)
+{
+    bool has_first = columns->at[first] >= 0, has_second = columns->at[second] >= 0;
+
+    if (has_first != has_second) {
+        table_fail_at_row(columns->table, TABLE_HEADER, "no column '%s' beside '%s'",
+                          column_names[has_first ? second : first],
+                          column_names[has_first ? first : second]);
+    }
+}
+
+static _Noreturn void fail_since_both(const struct columns *columns, const char *first,
+                                      const char *second)
+{
+    table_fail_at_row(columns->table, TABLE_HEADER, "columns '%s' and '%s' exclude each other",
+                      first, second);
+}
+
+void columns_refuse_both(const struct columns *columns, enum column_id first, enum column_id second)
+{
+    const int one = columns->at[first], other = columns->at[second];
+
+    if (one >= 0 && other >= 0) {
+        fail_since_both(columns, columns->table->names[one], columns->table->names[other]);
+    }
+}
+
+void columns_refuse_two_units(const struct columns *columns, enum column_id angle)
+{
+    const char *degrees = name_in_degrees(angle);
+
+    if (degrees && columns->at[angle] >= 0 && !columns_has_degrees(columns, angle) &&
+        table_find_column(columns->table, degrees) >= 0) {
+        fail_since_both(columns, column_names[angle], degrees);
+    }
+}
+
+bool columns_has_degrees(const struct columns *columns, enum column_id angle)
+{
+    return columns->at[angle] >= 0 && name_in_degrees(angle) &&
+           strcmp(columns->table->names[columns->at[angle]], column_names[angle]) != 0;
+}
+
+double column_radians(enum column_id angle, double degrees)
+{
+    return angle == COL_AZIMUTH_RAD ? remainder(TURN / 4 - degrees * (TURN / 360), TURN)
+                                    : degrees * DEG_RAD;
+}
+
+/* Other names and units. */
 
 /*
  * Kinds of quantities, for their units. COMPASS: clockwise from north. SIZE: an angle without a
@@ -103,59 +145,60 @@ static const struct {
  * unit is not accepted.
  */
 static const struct {
-    const char *word, *column;
+    const char *word;
+    enum column_id column;
     enum dimension dimension;
 } words[] = {
-    {"t", "t_s", TIME},
-    {"time", "t_s", TIME},
-    {"timestamp", "t_s", TIME},
-    {"datetime", "t_s", TIME},
-    {"sensor_id", "sensor_id", NUMBER},
-    {"sensor", "sensor_id", NUMBER},
-    {"radar", "sensor_id", NUMBER},
-    {"radar_id", "sensor_id", NUMBER},
-    {"x", "x_m", LENGTH},
-    {"y", "y_m", LENGTH},
-    {"z", "z_m", LENGTH},
-    {"vx", "vx_mps", SPEED},
-    {"vy", "vy_mps", SPEED},
-    {"vz", "vz_mps", SPEED},
-    {"range", "range_m", LENGTH},
-    {"distance", "range_m", LENGTH},
-    {"rho", "range_m", LENGTH},
-    {"azimuth", "azimuth_deg", DEGREES},
-    {"az", "azimuth_deg", DEGREES},
-    {"theta", "azimuth_deg", DEGREES},
-    {"azimuth_compass", "azimuth_deg", COMPASS},
-    {"azimuth_clockwise", "azimuth_deg", COMPASS},
-    {"azimuth", "azimuth_rad", RADIANS},
-    {"az", "azimuth_rad", RADIANS},
-    {"elevation", "elevation_deg", DEGREES},
-    {"el", "elevation_deg", DEGREES},
-    {"elevation", "elevation_rad", RADIANS},
-    {"el", "elevation_rad", RADIANS},
-    {"range_rate", "range_rate_mps", SPEED},
-    {"doppler", "range_rate_mps", SPEED},
-    {"lat", "lat_deg", NUMBER},
-    {"latitude", "lat_deg", NUMBER},
-    {"lat", "lat_deg", DEGREES},
-    {"latitude", "lat_deg", DEGREES},
-    {"lon", "lon_deg", NUMBER},
-    {"lng", "lon_deg", NUMBER},
-    {"longitude", "lon_deg", NUMBER},
-    {"lon", "lon_deg", DEGREES},
-    {"longitude", "lon_deg", DEGREES},
-    {"alt", "alt_m", LENGTH},
-    {"altitude", "alt_m", LENGTH},
-    {"snr", "snr_db", NUMBER},
-    {"bearing", "bearing_rad", RADIANS},
-    {"bearing", "bearing_rad", COMPASS_TO_EAST},
-    {"sensor_x", "sensor_x_m", LENGTH},
-    {"sensor_y", "sensor_y_m", LENGTH},
-    {"sensor_lat", "sensor_lat_deg", NUMBER},
-    {"sensor_lon", "sensor_lon_deg", NUMBER},
-    {"sigma", "sigma_rad", SIZE},
-    {"sigma_azimuth", "sigma_azimuth_rad", SIZE},
+    {"t", COL_T_S, TIME},
+    {"time", COL_T_S, TIME},
+    {"timestamp", COL_T_S, TIME},
+    {"datetime", COL_T_S, TIME},
+    {"sensor_id", COL_SENSOR_ID, NUMBER},
+    {"sensor", COL_SENSOR_ID, NUMBER},
+    {"radar", COL_SENSOR_ID, NUMBER},
+    {"radar_id", COL_SENSOR_ID, NUMBER},
+    {"x", COL_X_M, LENGTH},
+    {"y", COL_Y_M, LENGTH},
+    {"z", COL_Z_M, LENGTH},
+    {"vx", COL_VX_MPS, SPEED},
+    {"vy", COL_VY_MPS, SPEED},
+    {"vz", COL_VZ_MPS, SPEED},
+    {"range", COL_RANGE_M, LENGTH},
+    {"distance", COL_RANGE_M, LENGTH},
+    {"rho", COL_RANGE_M, LENGTH},
+    {"azimuth", COL_AZIMUTH_RAD, DEGREES},
+    {"az", COL_AZIMUTH_RAD, DEGREES},
+    {"theta", COL_AZIMUTH_RAD, DEGREES},
+    {"azimuth_compass", COL_AZIMUTH_RAD, COMPASS},
+    {"azimuth_clockwise", COL_AZIMUTH_RAD, COMPASS},
+    {"azimuth", COL_AZIMUTH_RAD, RADIANS},
+    {"az", COL_AZIMUTH_RAD, RADIANS},
+    {"elevation", COL_ELEVATION_RAD, DEGREES},
+    {"el", COL_ELEVATION_RAD, DEGREES},
+    {"elevation", COL_ELEVATION_RAD, RADIANS},
+    {"el", COL_ELEVATION_RAD, RADIANS},
+    {"range_rate", COL_RANGE_RATE_MPS, SPEED},
+    {"doppler", COL_RANGE_RATE_MPS, SPEED},
+    {"lat", COL_LAT_DEG, NUMBER},
+    {"latitude", COL_LAT_DEG, NUMBER},
+    {"lat", COL_LAT_DEG, DEGREES},
+    {"latitude", COL_LAT_DEG, DEGREES},
+    {"lon", COL_LON_DEG, NUMBER},
+    {"lng", COL_LON_DEG, NUMBER},
+    {"longitude", COL_LON_DEG, NUMBER},
+    {"lon", COL_LON_DEG, DEGREES},
+    {"longitude", COL_LON_DEG, DEGREES},
+    {"alt", COL_ALT_M, LENGTH},
+    {"altitude", COL_ALT_M, LENGTH},
+    {"snr", COL_SNR_DB, NUMBER},
+    {"bearing", COL_BEARING_RAD, RADIANS},
+    {"bearing", COL_BEARING_RAD, COMPASS_TO_EAST},
+    {"sensor_x", COL_SENSOR_X_M, LENGTH},
+    {"sensor_y", COL_SENSOR_Y_M, LENGTH},
+    {"sensor_lat", COL_SENSOR_LAT_DEG, NUMBER},
+    {"sensor_lon", COL_SENSOR_LON_DEG, NUMBER},
+    {"sigma", COL_SIGMA_RAD, SIZE},
+    {"sigma_azimuth", COL_SIGMA_AZIMUTH_RAD, SIZE},
 };
 
 #define NAME_BYTES 40
@@ -216,6 +259,17 @@ static bool begins_with_word(const char *plain, const char *word)
     return strncmp(plain, word, length) == 0 && (plain[length] == '\0' || plain[length] == '_');
 }
 
+/* Name of the column that a word stands for, in radians or in degrees. */
+static const char *name_of_word(size_t word)
+{
+    const enum dimension dimension = words[word].dimension;
+    const char *degrees = name_in_degrees(words[word].column);
+
+    return degrees && (dimension == DEGREES || dimension == COMPASS)
+               ? degrees
+               : column_names[words[word].column];
+}
+
 static const char *column_for_name(const char *name, struct unit *unit)
 {
     char plain[NAME_BYTES];
@@ -227,60 +281,30 @@ static const char *column_for_name(const char *name, struct unit *unit)
         if (begins_with_word(plain, words[i].word)) {
             *unit = find_unit(plain + strlen(words[i].word), words[i].dimension);
             if (is_unit_known(*unit)) {
-                return words[i].column;
+                return name_of_word(i);
             }
         }
     }
     return NULL;
 }
 
-/* ---- --columns ---- */
-
-/* Names of columns that readers use and that no entry of `words` gives. */
-static const char *const others[] = {"azimuth_rad",
-                                     "bearing_rad",
-                                     "elevation_rad",
-                                     "sigma_m",
-                                     "sigma_mps",
-                                     "sigma_range_m",
-                                     "sigma_azimuth_rad",
-                                     "sigma_elevation_rad",
-                                     "sigma_rad",
-                                     "sector_from_rad",
-                                     "sector_to_rad",
-                                     "scan",
-                                     "epoch",
-                                     "received_s",
-                                     "sensor_x_m",
-                                     "sensor_y_m",
-                                     "sensor_z_m",
-                                     "sensor_lat_deg",
-                                     "sensor_lon_deg",
-                                     "sensor_alt_m",
-                                     "sigma_alt_m",
-                                     "target_id",
-                                     "track_id",
-                                     "status",
-                                     "sigma_range_rate_mps"};
-
 #define NUM_WORDS (sizeof words / sizeof *words)
-#define NUM_OTHERS (sizeof others / sizeof *others)
 
 /* All accepted names by index; NULL after the last. */
 static const char *known_name_at(size_t index)
 {
-    return index < NUM_OTHERS                   ? others[index]
-           : index < NUM_OTHERS + NUM_WORDS     ? words[index - NUM_OTHERS].column
-           : index < NUM_OTHERS + 2 * NUM_WORDS ? words[index - NUM_OTHERS - NUM_WORDS].word
-                                                : NULL;
+    return index < NUM_NAMED                   ? column_names[index]
+           : index < NUM_NAMED + NUM_WORDS     ? name_of_word(index - NUM_NAMED)
+           : index < NUM_NAMED + 2 * NUM_WORDS ? words[index - NUM_NAMED - NUM_WORDS].word
+                                               : NULL;
 }
 
 static bool is_known_column_name(const char *name)
 {
     struct unit unit;
 
-    for (size_t i = 0; i < NUM_OTHERS; i++) {
-        if (strcmp(name, others[i]) == 0) {
+    for (size_t i = 0; i < NUM_NAMED; i++) {
+        if (strcmp(name, column_names[i]) == 0) {
             return true;
         }
     }
@@ -296,7 +320,7 @@ static size_t num_renamed;
 static bool is_renaming_done; /* a file had the columns of --columns */
 static char names_seen[240];  /* column names of the newest file without them */
 
-void table_dialect_set_columns_option(const char *text)
+void columns_set_option(const char *text)
 {
     char *copy = must_copy_text(text), *rest = copy, *pair; /* kept as long as the program runs */
 
@@ -324,7 +348,8 @@ void table_dialect_set_columns_option(const char *text)
     }
 }
 
-void table_dialect_list_columns_of_file(const struct table *table, char *text, size_t bytes)
+/* Writes the names of a table's columns, separated by commas. */
+static void list_columns_of_file(const struct table *table, char *text, size_t bytes)
 {
     size_t used = 0;
 
@@ -336,13 +361,12 @@ void table_dialect_list_columns_of_file(const struct table *table, char *text, s
 }
 
 /* Exit 2 where a file has some of the columns of --columns, but not all. */
-static void fail_if_columns_option_is_only_partly_found(const struct table *table, size_t found,
-                                                        const char *missing)
+static void check_option_found_whole(const struct table *table, size_t found, const char *missing)
 {
     if (found > 0 && missing) {
         char names[240];
 
-        table_dialect_list_columns_of_file(table, names, sizeof names);
+        list_columns_of_file(table, names, sizeof names);
         fail(EXIT_USAGE, "%s:%u: --columns: there is no column '%s'; the file has: %s", table->path,
              (unsigned)table->header_line, missing, names);
     }
@@ -360,13 +384,13 @@ static void rename_columns_by_option(struct table *table)
             missing = renamed[i].column;
         }
     }
-    fail_if_columns_option_is_only_partly_found(table, found, missing);
+    check_option_found_whole(table, found, missing);
 
     for (size_t i = 0; i < num_renamed; i++) {
         const int column = table_find_column(table, renamed[i].column);
 
         if (column < 0) {
-            table_dialect_list_columns_of_file(table, names_seen, sizeof names_seen);
+            list_columns_of_file(table, names_seen, sizeof names_seen);
             return;
         }
         if (table_find_column(table, renamed[i].name) >= 0) {
@@ -378,7 +402,7 @@ static void rename_columns_by_option(struct table *table)
     is_renaming_done = true;
 }
 
-void table_dialect_fail_if_columns_option_unused(void)
+void columns_check_option_used(void)
 {
     if (num_renamed > 0 && !is_renaming_done) {
         fail(EXIT_USAGE, "--columns: no file has a column '%s'%s%s", renamed[0].column,
@@ -386,7 +410,7 @@ void table_dialect_fail_if_columns_option_unused(void)
     }
 }
 
-static bool is_name_given_by_columns_option(const char *name)
+static bool is_name_of_option(const char *name)
 {
     for (size_t i = 0; i < num_renamed; i++) {
         if (renamed[i].name == name) {
@@ -396,22 +420,20 @@ static bool is_name_given_by_columns_option(const char *name)
     return false;
 }
 
-/* ---- A header ---- */
-
 /*
  * Whether the header already names a time and a place as the readers do; other columns then keep
  * their names, except the sensor's, since extra columns may have any name.
  */
-static bool header_names_time_and_place(const struct table *table)
+static bool is_header_named(const struct table *table)
 {
-    static const char *const places[] = {"x_m",         "range_m",   "lat_deg",
-                                         "bearing_rad", "target_id", "track_id"};
+    static const enum column_id places[] = {COL_X_M,         COL_RANGE_M,   COL_LAT_DEG,
+                                            COL_BEARING_RAD, COL_TARGET_ID, COL_TRACK_ID};
     bool has_place = false;
 
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        has_place |= table_find_column(table, places[i]) >= 0;
+        has_place |= table_find_column(table, column_names[places[i]]) >= 0;
     }
-    return has_place && table_find_column(table, "t_s") >= 0;
+    return has_place && table_find_column(table, column_names[COL_T_S]) >= 0;
 }
 
 static void set_column_unit(struct table *table, size_t column, struct unit unit)
@@ -424,18 +446,18 @@ static void set_column_unit(struct table *table, size_t column, struct unit unit
     table->offsets[column] = unit.offset;
 }
 
-void table_dialect_name_columns(struct table *table)
+void columns_rename(struct table *table)
 {
     rename_columns_by_option(table);
-    const bool is_left = header_names_time_and_place(table);
+    const bool is_left = is_header_named(table);
 
     for (size_t i = 0; i < table->num_columns; i++) {
         struct unit unit = {1, 0};
         const char *column;
 
         column = column_for_name(table->names[i], &unit);
-        if (is_left && !is_name_given_by_columns_option(table->names[i]) &&
-            (!column || strcmp(column, "sensor_id") != 0)) {
+        if (is_left && !is_name_of_option(table->names[i]) &&
+            (!column || strcmp(column, column_names[COL_SENSOR_ID]) != 0)) {
             continue;
         }
         if (!column || table_find_column(table, column) >= 0) {
@@ -454,7 +476,7 @@ static const char *known_column_word_at(size_t index)
 }
 
 /* Whether a name of the file is a word for that column, or nearly one, with any unit. */
-static bool may_mean_column(const char *name, const char *column)
+static bool may_mean_column(const char *name, enum column_id column)
 {
     char plain[NAME_BYTES];
     const char *nearest;
@@ -464,7 +486,7 @@ static bool may_mean_column(const char *name, const char *column)
     }
     nearest = name_hint_nearest(plain, known_column_word_at);
     for (size_t i = 0; i < NUM_WORDS; i++) {
-        if (strcmp(words[i].column, column) == 0 &&
+        if (words[i].column == column && name_of_word(i) == column_names[column] &&
             (begins_with_word(plain, words[i].word) ||
              (nearest && strlen(plain) > 2 && strcmp(nearest, words[i].word) == 0))) {
             return true;
@@ -477,32 +499,30 @@ static bool may_mean_column(const char *name, const char *column)
  * Writes advice on a missing angle: its unit and reference are never guessed, so a column in
  * degrees is suggested as such, and for any other column both forms.
  */
-static void format_angle_hint(const char *name, const char *column, char *text, size_t bytes)
+static void format_angle_hint(const char *name, enum column_id column, char *text, size_t bytes)
 {
-    const int length = (int)(strlen(column) - strlen("_rad"));
-    const bool is_elevation = text_begins_with(column, "elevation");
-    const char *compass = is_elevation ? "" : " (clockwise from north)";
-    const char *east = is_elevation ? "" : " (counter-clockwise from east)";
+    const char *angle = column_names[column];
+    const int length = (int)(strlen(angle) - strlen("_rad"));
+    const char *compass = column == COL_ELEVATION_RAD ? "" : " (clockwise from north)";
+    const char *east = column == COL_ELEVATION_RAD ? "" : " (counter-clockwise from east)";
     char plain[NAME_BYTES];
     const char *unit = normalise_column_name(name, plain) ? strrchr(plain, '_') : NULL;
 
     if (unit && strcmp(unit, "_deg") == 0) {
         snprintf(text, bytes, "did you mean '%.40s'? --columns '%.*s_deg=%.40s'%s", name, length,
-                 column, name, compass);
+                 angle, name, compass);
         return;
     }
     snprintf(text, bytes,
              "did you mean '%.40s'? --columns '%.*s_deg=%.40s'%s or '%.*s_rad=%.40s'%s", name,
-             length, column, name, compass, length, column, name, east);
+             length, angle, name, compass, length, angle, name, east);
 }
 
-static bool is_angle_column(const char *column)
-{
-    return strcmp(column, "azimuth_rad") == 0 || strcmp(column, "bearing_rad") == 0 ||
-           strcmp(column, "elevation_rad") == 0;
-}
-
-void table_dialect_hint_column(const struct table *table, const char *column, char *text,
+/*
+ * Writes advice on a missing column: the column of the file that it may be, and the option to say
+ * so.
+ */
+static void format_column_hint(const struct table *table, enum column_id column, char *text,
                                size_t bytes)
 {
     struct unit unit;
@@ -510,24 +530,26 @@ void table_dialect_hint_column(const struct table *table, const char *column, ch
     for (size_t i = 0; i < table->num_columns; i++) {
         if (may_mean_column(table->names[i], column) &&
             column_for_name(table->names[i], &unit) == NULL) {
-            if (is_angle_column(column)) {
+            if (column == COL_AZIMUTH_RAD || column == COL_BEARING_RAD ||
+                column == COL_ELEVATION_RAD) {
                 format_angle_hint(table->names[i], column, text, bytes);
             } else {
                 snprintf(text, bytes, "did you mean '%.40s'? --columns '%s=%.40s'", table->names[i],
-                         column, table->names[i]);
+                         column_names[column], table->names[i]);
             }
             return;
         }
     }
-    snprintf(text, bytes, "--columns %s=NAME takes another", column);
+    snprintf(text, bytes, "--columns %s=NAME takes another", column_names[column]);
 }
 
-void table_dialect_other_names(const char *column, char *text, size_t bytes)
+/* Writes other accepted names of a column, like "time, timestamp"; "" where there are none. */
+static void list_other_names(enum column_id column, char *text, size_t bytes)
 {
     size_t used = 0;
 
     *text = '\0';
-    for (size_t i = 0; i < sizeof words / sizeof *words && used < bytes; i++) {
+    for (size_t i = 0; i < NUM_WORDS && used < bytes; i++) {
         char name[NAME_BYTES];
         const enum dimension dimension = words[i].dimension;
         const char *unit = is_unit_known(find_unit("", dimension))        ? ""
@@ -535,8 +557,24 @@ void table_dialect_other_names(const char *column, char *text, size_t bytes)
                                                                           : "_deg";
 
         snprintf(name, sizeof name, "%s%s", words[i].word, unit);
-        if (strcmp(words[i].column, column) == 0 && strcmp(name, column) != 0) {
+        if (words[i].column == column && name_of_word(i) == column_names[column] &&
+            strcmp(name, column_names[column]) != 0) {
             used += (size_t)snprintf(text + used, bytes - used, "%s%s", used > 0 ? ", " : "", name);
         }
     }
+}
+
+int columns_need(const struct columns *columns, enum column_id column)
+{
+    char others[160], hint[260], found[240];
+
+    if (columns->at[column] >= 0) {
+        return columns->at[column];
+    }
+    list_other_names(column, others, sizeof others);
+    list_columns_of_file(columns->table, found, sizeof found);
+    format_column_hint(columns->table, column, hint, sizeof hint);
+    table_fail_at_row(columns->table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s; %s",
+                      column_names[column], *others ? " (or " : "", others, *others ? ")" : "",
+                      found, hint);
 }

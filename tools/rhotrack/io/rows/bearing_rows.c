@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_bearings_message_codec: rows of bearings, and bearing_scan_t messages: one time, one sigma
+ * bearing_rows: rows of bearings, and bearing_scan_t messages: one time, one sigma
  * and one message for each scan.
  */
 #include "io/rows/rows_in_memory.h"
@@ -19,27 +19,22 @@ enum column {
 enum { IN_FILE = COLUMN_NEEDED | COLUMN_ALWAYS };
 
 static const struct rows_column columns[NUM_COLUMNS] = {
-    [SENSOR_X_M] = {"sensor_x_m", IN_FILE | COLUMN_FILLED | COLUMN_OF_SCAN, 0, NULL, NULL},
-    [SENSOR_Y_M] = {"sensor_y_m", IN_FILE | COLUMN_FILLED | COLUMN_OF_SCAN, 0, NULL, NULL},
-    [BEARING_RAD] = {"bearing_rad", IN_FILE | COLUMN_MEASURED | COLUMN_ANGLE, 0, NULL, NULL},
-    [SIGMA_RAD] = {"sigma_rad", COLUMN_OF_PLOTS, 0, NULL, NULL},
-    [SECTOR_FROM_RAD] = {"sector_from_rad", COLUMN_NO_ROOM, 0, NULL, NULL},
-    [SECTOR_TO_RAD] = {"sector_to_rad", COLUMN_NO_ROOM, 0, NULL, NULL},
-    [SNR_DB] = {"snr_db", COLUMN_NO_ROOM, 0, NULL, NULL},
+    [SENSOR_X_M] = {COL_SENSOR_X_M, IN_FILE | COLUMN_FILLED | COLUMN_OF_SCAN, 0},
+    [SENSOR_Y_M] = {COL_SENSOR_Y_M, IN_FILE | COLUMN_FILLED | COLUMN_OF_SCAN, 0},
+    [BEARING_RAD] = {COL_BEARING_RAD, IN_FILE | COLUMN_MEASURED | COLUMN_ANGLE, 0},
+    [SIGMA_RAD] = {COL_SIGMA_RAD, COLUMN_OF_PLOTS, 0},
+    [SECTOR_FROM_RAD] = {COL_SECTOR_FROM_RAD, COLUMN_NO_ROOM, 0},
+    [SECTOR_TO_RAD] = {COL_SECTOR_TO_RAD, COLUMN_NO_ROOM, 0},
+    [SNR_DB] = {COL_SNR_DB, COLUMN_NO_ROOM, 0},
 };
 
-static size_t rows_in_one_message(const struct rows_part *rest)
-{
-    return rest->count;
-}
+ROWS_CHECKED_CODEC(bearing_scan)
 
 static size_t encode_bearing_scan_part(const struct rows_part *part, uint8_t *buffer,
                                        const char **field)
 {
     const double *head = rows_scan_first_row_cells(part);
     const double *first = part->count ? rows_part_cells(part, 0) : head;
-    struct rho_message_place place;
-    size_t size;
     struct rho_message_bearing_scan message = {
         .utime = part->scan->utime,
         .scan = part->scan->head.scan,
@@ -54,13 +49,7 @@ static size_t encode_bearing_scan_part(const struct rows_part *part, uint8_t *bu
     for (size_t i = 0; i < part->count; i++) {
         message.bearing_rad[i] = rows_float_or_zero(rows_part_cells(part, i)[BEARING_RAD]);
     }
-    if (rho_message_bearing_scan_validate(&message, &place) != RHO_OK) {
-        *field = rho_message_bearing_scan_field(&place);
-        return 0;
-    }
-    return rho_message_bearing_scan_encode(&message, buffer, ROWS_MESSAGE_BYTES, &size) == RHO_OK
-               ? size
-               : 0;
+    return encode_checked(&message, buffer, field);
 }
 
 static double *put_sensor_place_and_sigma_cells(double *cells,
@@ -77,26 +66,18 @@ static enum rho_status decode_bearing_scan_to_rows(const uint8_t *data, size_t s
                                                    const char **field)
 {
     struct rho_message_bearing_scan message;
-    struct rho_message_place place;
-    enum rho_status status = rho_message_bearing_scan_decode(data, size, &message);
+    const enum rho_status status = decode_checked(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;
     }
-    status = rho_message_bearing_scan_validate(&message, &place);
-    if (status != RHO_OK) {
-        *field = rho_message_bearing_scan_field(&place);
-        return status;
-    }
-    out->key = (struct row){.time_us = message.utime,
+    const struct row key = {.time_us = message.utime,
                             .sensor_id = message.sensor_id,
                             .epoch = message.epoch,
                             .scan = message.scan};
-    out->part = 0;
-    out->num_parts = 1;
-    put_sensor_place_and_sigma_cells(rows_add_message_row(rows, out, 0), &message);
-    out->first = rows->count;
-    out->count = (size_t)message.num_bearings;
+
+    put_sensor_place_and_sigma_cells(
+        rows_begin_message(rows, out, &key, 0, 1, message.num_bearings), &message);
     for (int i = 0; i < message.num_bearings; i++) {
         put_sensor_place_and_sigma_cells(rows_add_message_row(rows, out, 0),
                                          &message)[BEARING_RAD] = (double)message.bearing_rad[i];
@@ -114,7 +95,7 @@ const struct rows_kind rows_kind_bearings = {
     .rows_max = RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .fit = rows_in_one_message,
+    .part_max = RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD,
     .encode = encode_bearing_scan_part,
     .decode = decode_bearing_scan_to_rows,
 };

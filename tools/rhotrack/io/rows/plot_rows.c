@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_cartesian_message_codec: rows of Cartesian plots, and plot_scan_t messages.
+ * plot_rows: rows of Cartesian plots, and plot_scan_t messages.
  */
 #include "io/rows/rows_in_memory.h"
 
@@ -23,19 +23,21 @@ enum column {
 enum group { NO_GROUP, SECTOR, VELOCITY };
 
 static const struct rows_column columns[NUM_COLUMNS] = {
-    [X_M] = {"x_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
-    [Y_M] = {"y_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
-    [Z_M] = {"z_m", COLUMN_MEASURED, NO_GROUP, NULL, NULL},
-    [VX_MPS] = {"vx_mps", COLUMN_MEASURED, VELOCITY, NULL, NULL},
-    [VY_MPS] = {"vy_mps", COLUMN_MEASURED, VELOCITY, NULL, NULL},
-    [VZ_MPS] = {"vz_mps", COLUMN_MEASURED, NO_GROUP, NULL, NULL},
-    [SIGMA_M] = {"sigma_m", 0, NO_GROUP, NULL, NULL},
-    [SIGMA_MPS] = {"sigma_mps", 0, NO_GROUP, NULL, NULL},
-    [SNR_DB] = {"snr_db", 0, NO_GROUP, NULL, NULL},
-    [SECTOR_FROM_RAD] = {"sector_from_rad", COLUMN_OF_SCAN, SECTOR, NULL, NULL},
-    [SECTOR_TO_RAD] = {"sector_to_rad", COLUMN_OF_SCAN, SECTOR, NULL, NULL},
-    [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_NO_ROOM, NO_GROUP, NULL, NULL},
+    [X_M] = {COL_X_M, COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP},
+    [Y_M] = {COL_Y_M, COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP},
+    [Z_M] = {COL_Z_M, COLUMN_MEASURED, NO_GROUP},
+    [VX_MPS] = {COL_VX_MPS, COLUMN_MEASURED, VELOCITY},
+    [VY_MPS] = {COL_VY_MPS, COLUMN_MEASURED, VELOCITY},
+    [VZ_MPS] = {COL_VZ_MPS, COLUMN_MEASURED, NO_GROUP},
+    [SIGMA_M] = {COL_SIGMA_M, 0, NO_GROUP},
+    [SIGMA_MPS] = {COL_SIGMA_MPS, 0, NO_GROUP},
+    [SNR_DB] = {COL_SNR_DB, 0, NO_GROUP},
+    [SECTOR_FROM_RAD] = {COL_SECTOR_FROM_RAD, COLUMN_OF_SCAN, SECTOR},
+    [SECTOR_TO_RAD] = {COL_SECTOR_TO_RAD, COLUMN_OF_SCAN, SECTOR},
+    [RANGE_RATE_MPS] = {COL_RANGE_RATE_MPS, COLUMN_NO_ROOM, NO_GROUP},
 };
+
+ROWS_CHECKED_CODEC(plot_scan)
 
 /* A plot with a velocity and a height must have a vertical velocity too. */
 static const char *why_plot_cells_incomplete(const double *cells)
@@ -68,12 +70,6 @@ static int plot_scan_kind_by_height_and_velocity(const double *cells)
                       : RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D;
 }
 
-static size_t rows_in_one_message(const struct rows_part *rest)
-{
-    return rest->count < RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS ? rest->count
-                                                         : RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS;
-}
-
 static struct rho_message_plot message_plot_of(const struct rows_part *part, size_t index)
 {
     const double *cells = rows_part_cells(part, index);
@@ -96,8 +92,6 @@ static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffe
                                     const char **field)
 {
     const double *head = rows_scan_first_row_cells(part);
-    struct rho_message_place place;
-    size_t size;
     struct rho_message_plot_scan message = {
         .utime = part->scan->utime,
         .scan = part->scan->head.scan,
@@ -115,13 +109,7 @@ static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffe
     for (size_t i = 0; i < part->count; i++) {
         message.plots[i] = message_plot_of(part, i);
     }
-    if (rho_message_plot_scan_validate(&message, &place) != RHO_OK) {
-        *field = rho_message_plot_scan_field(&place);
-        return 0;
-    }
-    return rho_message_plot_scan_encode(&message, buffer, ROWS_MESSAGE_BYTES, &size) == RHO_OK
-               ? size
-               : 0;
+    return encode_checked(&message, buffer, field);
 }
 
 static void put_sector_cells(double *cells, const struct rho_message_plot_scan *message)
@@ -158,26 +146,19 @@ static enum rho_status decode_plot_scan_to_rows(const uint8_t *data, size_t size
                                                 struct rows_message *out, const char **field)
 {
     struct rho_message_plot_scan message;
-    struct rho_message_place place;
-    enum rho_status status = rho_message_plot_scan_decode(data, size, &message);
+    const enum rho_status status = decode_checked(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;
     }
-    status = rho_message_plot_scan_validate(&message, &place);
-    if (status != RHO_OK) {
-        *field = rho_message_plot_scan_field(&place);
-        return status;
-    }
-    out->key = (struct row){.time_us = message.utime,
+    const struct row key = {.time_us = message.utime,
                             .sensor_id = message.sensor_id,
                             .epoch = message.epoch,
                             .scan = message.scan};
-    out->part = message.part;
-    out->num_parts = message.num_parts;
-    put_sector_cells(rows_add_message_row(rows, out, 0), &message);
-    out->first = rows->count;
-    out->count = (size_t)message.num_plots;
+
+    put_sector_cells(
+        rows_begin_message(rows, out, &key, message.part, message.num_parts, message.num_plots),
+        &message);
     for (int i = 0; i < message.num_plots; i++) {
         double *cells = rows_add_message_row(rows, out, message.plots[i].dt_us);
 
@@ -198,7 +179,7 @@ const struct rows_kind rows_kind_plots = {
     .num_columns = NUM_COLUMNS,
     .why_not = why_plot_cells_incomplete,
     .pattern = plot_scan_kind_by_height_and_velocity,
-    .fit = rows_in_one_message,
+    .part_max = RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS,
     .encode = encode_plot_scan_part,
     .decode = decode_plot_scan_to_rows,
 };

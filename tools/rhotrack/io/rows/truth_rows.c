@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_truth_message_codec: rows of true target positions, and truth_list_t messages.
+ * truth_rows: rows of true target positions, and truth_list_t messages.
  */
 #include "io/rows/rows_in_memory.h"
 
@@ -9,20 +9,16 @@ enum column { TARGET_ID, X_M, Y_M, Z_M, VX_MPS, VY_MPS, VZ_MPS, NUM_COLUMNS };
 enum { IN_FILE = COLUMN_NEEDED | COLUMN_FILLED | COLUMN_ALWAYS, VELOCITY = 1 };
 
 static const struct rows_column columns[NUM_COLUMNS] = {
-    [TARGET_ID] = {"target_id", IN_FILE | COLUMN_MEASURED | COLUMN_INT32, 0, NULL, NULL},
-    [X_M] = {"x_m", IN_FILE, 0, NULL, NULL},
-    [Y_M] = {"y_m", IN_FILE, 0, NULL, NULL},
-    [Z_M] = {"z_m", COLUMN_NOT_ZERO, 0, NULL, NULL},
-    [VX_MPS] = {"vx_mps", COLUMN_NOT_ZERO, VELOCITY, NULL, NULL},
-    [VY_MPS] = {"vy_mps", COLUMN_NOT_ZERO, VELOCITY, NULL, NULL},
-    [VZ_MPS] = {"vz_mps", COLUMN_NOT_ZERO, 0, NULL, NULL},
+    [TARGET_ID] = {COL_TARGET_ID, IN_FILE | COLUMN_MEASURED | COLUMN_INT32, 0},
+    [X_M] = {COL_X_M, IN_FILE, 0},
+    [Y_M] = {COL_Y_M, IN_FILE, 0},
+    [Z_M] = {COL_Z_M, COLUMN_NOT_ZERO, 0},
+    [VX_MPS] = {COL_VX_MPS, COLUMN_NOT_ZERO, VELOCITY},
+    [VY_MPS] = {COL_VY_MPS, COLUMN_NOT_ZERO, VELOCITY},
+    [VZ_MPS] = {COL_VZ_MPS, COLUMN_NOT_ZERO, 0},
 };
 
-static size_t rows_in_one_message(const struct rows_part *rest)
-{
-    return rest->count < RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS ? rest->count
-                                                            : RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS;
-}
+ROWS_CHECKED_CODEC(truth_list)
 
 static struct rho_message_truth message_target_of(const double *cells)
 {
@@ -39,8 +35,6 @@ static struct rho_message_truth message_target_of(const double *cells)
 
 static size_t encode_truth_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
-    struct rho_message_place place;
-    size_t size;
     struct rho_message_truth_list message = {
         .utime = part->scan->utime,
         .scan = part->scan->head.scan,
@@ -52,13 +46,7 @@ static size_t encode_truth_part(const struct rows_part *part, uint8_t *buffer, c
     for (size_t i = 0; i < part->count; i++) {
         message.targets[i] = message_target_of(rows_part_cells(part, i));
     }
-    if (rho_message_truth_list_validate(&message, &place) != RHO_OK) {
-        *field = rho_message_truth_list_field(&place);
-        return 0;
-    }
-    return rho_message_truth_list_encode(&message, buffer, ROWS_MESSAGE_BYTES, &size) == RHO_OK
-               ? size
-               : 0;
+    return encode_checked(&message, buffer, field);
 }
 
 static void put_target_cells(double *cells, const struct rho_message_truth *target)
@@ -77,23 +65,14 @@ static enum rho_status decode_truth_list_to_rows(const uint8_t *data, size_t siz
                                                  const char **field)
 {
     struct rho_message_truth_list message;
-    struct rho_message_place place;
-    enum rho_status status = rho_message_truth_list_decode(data, size, &message);
+    const enum rho_status status = decode_checked(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;
     }
-    status = rho_message_truth_list_validate(&message, &place);
-    if (status != RHO_OK) {
-        *field = rho_message_truth_list_field(&place);
-        return status;
-    }
-    out->key = (struct row){.time_us = message.utime, .scan = message.scan};
-    out->part = message.part;
-    out->num_parts = message.num_parts;
-    rows_add_message_row(rows, out, 0);
-    out->first = rows->count;
-    out->count = (size_t)message.num_targets;
+    const struct row key = {.time_us = message.utime, .scan = message.scan};
+
+    rows_begin_message(rows, out, &key, message.part, message.num_parts, message.num_targets);
     for (int i = 0; i < message.num_targets; i++) {
         put_target_cells(rows_add_message_row(rows, out, 0), &message.targets[i]);
     }
@@ -107,7 +86,7 @@ const struct rows_kind rows_kind_truth = {
     .has_one_time = true,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .fit = rows_in_one_message,
+    .part_max = RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS,
     .encode = encode_truth_part,
     .decode = decode_truth_list_to_rows,
 };

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_lat_lon_to_local_frame: converts latitudes and longitudes (geodetic_columns.h) in rows of
+ * rows_geodetic: converts latitudes and longitudes (geodetic_columns.h) in rows of
  * plots, polar plots and truth to cells of the local frame, as messages have them.
  */
-#ifndef RHOTRACK_TOOL_ROWS_LAT_LON_TO_LOCAL_FRAME_H
-#define RHOTRACK_TOOL_ROWS_LAT_LON_TO_LOCAL_FRAME_H
+#ifndef RHOTRACK_TOOL_ROWS_GEODETIC_H
+#define RHOTRACK_TOOL_ROWS_GEODETIC_H
 
 #include <stdbool.h>
 

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * read_truth_or_track_row: reads one row of a truth or tracks file: a target or track at one time.
+ * trajectory_row: reads one row of a truth or tracks file: a target or track at one time.
  *
  * Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2.
  */
-#ifndef RHOTRACK_TOOL_READ_TRUTH_OR_TRACK_ROW_H
-#define RHOTRACK_TOOL_READ_TRUTH_OR_TRACK_ROW_H
+#ifndef RHOTRACK_TOOL_TRAJECTORY_ROW_H
+#define RHOTRACK_TOOL_TRAJECTORY_ROW_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include "io/csv/geodetic_columns.h"
-#include "io/csv/table_columns_and_cells.h"
 #include "settings/parameters.h"
 
 struct trajectory_row {
@@ -25,12 +24,10 @@ struct trajectory_row {
     double covariance[6];
 };
 
-/* Column indices, -1 where the file has no such column. */
 struct trajectory_columns {
-    const struct table *table;
-    int time, id, status, x, y, z, vx, vy, vz;
-    int covariance[6];
-    struct geodetic_columns *geodetic; /* of a truth with latitudes and longitudes */
+    struct columns in_file;
+    bool has_z;
+    struct geodetic_columns *geodetic; /* of a truth; NULL for tracks */
 };
 
 /*

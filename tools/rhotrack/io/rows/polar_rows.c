@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_polar_message_codec: rows of polar plots, and polar_scan_t messages. A message has one set
+ * polar_rows: rows of polar plots, and polar_scan_t messages. A message has one set
  * of sigmas: plots with other sigmas go into another part.
  */
-#include "io/csv/row_cells_read_and_check.h"
 #include "io/rows/rows_in_memory.h"
-
-#define DEG_RAD 0.017453292519943295
 
 enum column {
     RANGE_M,
@@ -28,29 +25,25 @@ enum column {
 
 enum group { NO_GROUP, SECTOR, PLACE };
 
-static double radians_from_deg(double value)
-{
-    return value * DEG_RAD;
-}
-
 static const struct rows_column columns[NUM_COLUMNS] = {
-    [RANGE_M] = {"range_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
-    [AZIMUTH_RAD] = {"azimuth_rad", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS | COLUMN_ANGLE,
-                     NO_GROUP, "azimuth_deg", row_radians_from_compass_deg},
-    [ELEVATION_RAD] = {"elevation_rad", COLUMN_MEASURED, NO_GROUP, "elevation_deg",
-                       radians_from_deg},
-    [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_MEASURED, NO_GROUP, NULL, NULL},
-    [SNR_DB] = {"snr_db", 0, NO_GROUP, NULL, NULL},
-    [SENSOR_X_M] = {"sensor_x_m", COLUMN_OF_SCAN | COLUMN_NOT_ZERO, PLACE, NULL, NULL},
-    [SENSOR_Y_M] = {"sensor_y_m", COLUMN_OF_SCAN | COLUMN_NOT_ZERO, PLACE, NULL, NULL},
-    [SENSOR_Z_M] = {"sensor_z_m", COLUMN_OF_SCAN | COLUMN_NOT_ZERO, PLACE, NULL, NULL},
-    [SIGMA_RANGE_M] = {"sigma_range_m", 0, NO_GROUP, NULL, NULL},
-    [SIGMA_AZIMUTH_RAD] = {"sigma_azimuth_rad", 0, NO_GROUP, NULL, NULL},
-    [SIGMA_ELEVATION_RAD] = {"sigma_elevation_rad", 0, NO_GROUP, NULL, NULL},
-    [SIGMA_RANGE_RATE_MPS] = {"sigma_range_rate_mps", 0, NO_GROUP, NULL, NULL},
-    [SECTOR_FROM_RAD] = {"sector_from_rad", COLUMN_OF_SCAN, SECTOR, NULL, NULL},
-    [SECTOR_TO_RAD] = {"sector_to_rad", COLUMN_OF_SCAN, SECTOR, NULL, NULL},
+    [RANGE_M] = {COL_RANGE_M, COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP},
+    [AZIMUTH_RAD] = {COL_AZIMUTH_RAD,
+                     COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS | COLUMN_ANGLE, NO_GROUP},
+    [ELEVATION_RAD] = {COL_ELEVATION_RAD, COLUMN_MEASURED, NO_GROUP},
+    [RANGE_RATE_MPS] = {COL_RANGE_RATE_MPS, COLUMN_MEASURED, NO_GROUP},
+    [SNR_DB] = {COL_SNR_DB, 0, NO_GROUP},
+    [SENSOR_X_M] = {COL_SENSOR_X_M, COLUMN_OF_SCAN | COLUMN_NOT_ZERO, PLACE},
+    [SENSOR_Y_M] = {COL_SENSOR_Y_M, COLUMN_OF_SCAN | COLUMN_NOT_ZERO, PLACE},
+    [SENSOR_Z_M] = {COL_SENSOR_Z_M, COLUMN_OF_SCAN | COLUMN_NOT_ZERO, PLACE},
+    [SIGMA_RANGE_M] = {COL_SIGMA_RANGE_M, 0, NO_GROUP},
+    [SIGMA_AZIMUTH_RAD] = {COL_SIGMA_AZIMUTH_RAD, 0, NO_GROUP},
+    [SIGMA_ELEVATION_RAD] = {COL_SIGMA_ELEVATION_RAD, 0, NO_GROUP},
+    [SIGMA_RANGE_RATE_MPS] = {COL_SIGMA_RANGE_RATE_MPS, 0, NO_GROUP},
+    [SECTOR_FROM_RAD] = {COL_SECTOR_FROM_RAD, COLUMN_OF_SCAN, SECTOR},
+    [SECTOR_TO_RAD] = {COL_SECTOR_TO_RAD, COLUMN_OF_SCAN, SECTOR},
 };
+
+ROWS_CHECKED_CODEC(polar_scan)
 
 static const char *why_range_or_azimuth_missing(const double *cells)
 {
@@ -74,17 +67,6 @@ static bool has_same_sigmas(const double *cells, const double *others)
         }
     }
     return true;
-}
-
-static size_t rows_of_same_sigmas_in_one_message(const struct rows_part *rest)
-{
-    size_t count = rest->count < 1 ? 0 : 1;
-
-    while (count < rest->count && count < RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS &&
-           has_same_sigmas(rows_part_cells(rest, 0), rows_part_cells(rest, count))) {
-        count++;
-    }
-    return count;
 }
 
 static struct rho_message_polar_plot message_plot_of(const struct rows_part *part, size_t index)
@@ -131,19 +113,11 @@ static struct rho_message_polar_scan message_scan_of(const struct rows_part *par
 static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
     struct rho_message_polar_scan message = message_scan_of(part);
-    struct rho_message_place place;
-    size_t size;
 
     for (size_t i = 0; i < part->count; i++) {
         message.polar_plots[i] = message_plot_of(part, i);
     }
-    if (rho_message_polar_scan_validate(&message, &place) != RHO_OK) {
-        *field = rho_message_polar_scan_field(&place);
-        return 0;
-    }
-    return rho_message_polar_scan_encode(&message, buffer, ROWS_MESSAGE_BYTES, &size) == RHO_OK
-               ? size
-               : 0;
+    return encode_checked(&message, buffer, field);
 }
 
 /*
@@ -186,26 +160,19 @@ static enum rho_status decode_polar_scan_to_rows(const uint8_t *data, size_t siz
                                                  const char **field)
 {
     struct rho_message_polar_scan message;
-    struct rho_message_place place;
-    enum rho_status status = rho_message_polar_scan_decode(data, size, &message);
+    const enum rho_status status = decode_checked(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;
     }
-    status = rho_message_polar_scan_validate(&message, &place);
-    if (status != RHO_OK) {
-        *field = rho_message_polar_scan_field(&place);
-        return status;
-    }
-    out->key = (struct row){.time_us = message.utime,
+    const struct row key = {.time_us = message.utime,
                             .sensor_id = message.sensor_id,
                             .epoch = message.epoch,
                             .scan = message.scan};
-    out->part = message.part;
-    out->num_parts = message.num_parts;
-    put_scan_cells(rows_add_message_row(rows, out, 0), &message);
-    out->first = rows->count;
-    out->count = (size_t)message.num_polar_plots;
+
+    put_scan_cells(rows_begin_message(rows, out, &key, message.part, message.num_parts,
+                                      message.num_polar_plots),
+                   &message);
     for (int i = 0; i < message.num_polar_plots; i++) {
         double *cells = rows_add_message_row(rows, out, message.polar_plots[i].dt_us);
 
@@ -226,7 +193,8 @@ const struct rows_kind rows_kind_polar = {
     .num_columns = NUM_COLUMNS,
     .why_not = why_range_or_azimuth_missing,
     .pattern = measured_quantities,
-    .fit = rows_of_same_sigmas_in_one_message,
+    .part_max = RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS,
+    .fit = has_same_sigmas,
     .encode = encode_part,
     .decode = decode_polar_scan_to_rows,
 };
