@@ -10,10 +10,10 @@
 #include "initiation/initiate_hough.h"
 #include "initiation/initiate_passive.h"
 #include "initiation/initiate_passive_paper.h"
-#include "io/output/initiated_tracks_output.h"
+#include "io/output/initiated_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/plot_scan_reader.h"
-#include "io/turns/sectors_merged_to_turns.h"
+#include "io/turns/merged_sectors.h"
 #include "rhotrack/tracker.h"
 
 struct initiation_run {
@@ -62,7 +62,7 @@ static void push_last_scans(struct initiation_run *batch, struct plot_scan_reade
     revolutions_free(&revolutions);
 }
 
-static void read_and_search_batch_by_kernel(struct initiation_run *batch,
+static void search_batch_by_kernel(struct initiation_run *batch,
                                             const struct command_line *line)
 {
     struct rho_initiator_config config;
@@ -79,7 +79,7 @@ static void read_and_search_batch_by_kernel(struct initiation_run *batch,
     start_us = monotonic_clock_us();
     must_succeed(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH), "initiator");
     batch->wall_us += monotonic_clock_us() - start_us;
-    plot_scan_reader_report_skipped(reader);
+    plot_reader_report_skipped(reader);
     if (batch->plots_no_room) {
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
                 batch->plots_no_room, RHO_MAX_PLOTS);
@@ -95,15 +95,15 @@ static void read_and_search_batch_by_kernel(struct initiation_run *batch,
 
 static void write_found_tracks(const struct initiation_run *batch, const char *path)
 {
-    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
     for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
         struct initiated row =
             initiated_from_candidate(i + 1, batch->time_us, &batch->initiator->candidates[i]);
 
-        initiated_tracks_output_add_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
-    initiated_tracks_output_close(found);
+    initiated_output_close(found);
 }
 
 /* Hits of each track found, in descending order, as JSON; *sum gets the sum of all hits. */
@@ -154,7 +154,7 @@ static void initiate_kernel(const struct command_line *line)
 {
     struct initiation_run batch = {.wall_us = 0};
 
-    read_and_search_batch_by_kernel(&batch, line);
+    search_batch_by_kernel(&batch, line);
     if (line->output || !line->json) {
         write_found_tracks(&batch, line->output);
     }

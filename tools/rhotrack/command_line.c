@@ -11,7 +11,7 @@
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/csv/columns.h"
-#include "io/csv/guess_origin_and_azimuth_sense.h"
+#include "io/csv/guess_origin.h"
 #include "settings/initiation_method_names_and_configs.h"
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
@@ -284,7 +284,7 @@ static const char *option_name_of_letter(int letter)
     return NULL;
 }
 
-static _Noreturn void refuse_unknown_option_with_hint(const struct command *command, char **argv)
+static _Noreturn void refuse_unknown_option(const struct command *command, char **argv)
 {
     const char *typed = argv[optind - 1], *hint;
     char name[64];
@@ -317,7 +317,7 @@ static void read_options(struct command_line *line, const struct command *comman
     opterr = 0;
     while ((letter = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
         if (letter == '?') {
-            refuse_unknown_option_with_hint(command, argv);
+            refuse_unknown_option(command, argv);
         }
         if (letter == ':') {
             fail(EXIT_USAGE, "%s: --%s needs a value", command->name,
@@ -353,10 +353,10 @@ static void set_default_origin_if_lacking(struct command_line *line, const char 
     }
 }
 
-static void set_csv_origin_and_warn_of_clockwise_azimuths(struct command_line *line,
+static void set_csv_origin(struct command_line *line,
                                                           const char *path)
 {
-    const struct origin_and_azimuth_sense look = guess_origin_and_azimuth_sense_from_rows(path);
+    const struct origin_and_azimuth_sense look = guess_origin_from_rows(path);
 
     set_default_origin_if_lacking(
         line, path, (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
@@ -372,7 +372,7 @@ static void set_csv_origin_and_warn_of_clockwise_azimuths(struct command_line *l
 /*
  * Selects the arguments that may hold plots, from which an origin can be taken: none of evaluate.
  */
-static void note_which_arguments_are_plot_files(struct command_line *line,
+static void note_plot_arguments(struct command_line *line,
                                                 const struct command *command)
 {
     /* the first argument of plot is the kind of picture */
@@ -402,7 +402,7 @@ void command_line_read(struct command_line *line, const struct command *command,
         fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
              line->arguments[command->max_arguments], command->name, command->usage);
     }
-    note_which_arguments_are_plot_files(line, command);
+    note_plot_arguments(line, command);
 }
 
 void refuse_output_that_is_an_input(const struct command_line *line)
@@ -472,7 +472,7 @@ void command_line_set_origin_and_places(struct command_line *line)
                                       asterix_file_radar_place(line->arguments[i]));
     }
     for (int i = 0; i < line->num_plot_files; i++) {
-        set_csv_origin_and_warn_of_clockwise_azimuths(line, line->plot_files[i]);
+        set_csv_origin(line, line->plot_files[i]);
     }
     if (line->num_plot_files > 0 && are_plot_files_regular(line)) {
         columns_check_option_used();

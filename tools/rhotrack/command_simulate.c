@@ -6,7 +6,7 @@
 #include "base/name_hint.h"
 #include "commands_and_parsed_line.h"
 #include "scene/scene.h"
-#include "suggested_next_command.h"
+#include "next_command.h"
 
 static void simulate_runs(const struct command_line *line, const struct scene *scene)
 {
@@ -79,7 +79,7 @@ static void suggest_track_command(const struct command_line *line)
         words[count++] = config;
         words[count++] = "-o";
         words[count++] = tracks;
-        suggested_next_command_print_on_terminal(line, words);
+        next_command_print(line, words);
     }
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         free(files[i]);

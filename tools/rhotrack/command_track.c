@@ -12,10 +12,10 @@
 #include "base/common.h"
 #include "command_line.h"
 #include "commands_and_parsed_line.h"
-#include "initiation/search_last_bearing_frames.h"
+#include "initiation/last_bearings.h"
 #include "io/output/clutter_map_load_and_save.h"
 #include "io/output/tracks_output.h"
-#include "io/output/zone_events_and_counts_output.h"
+#include "io/output/zone_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/merge_plots_and_bearings.h"
 #include "io/scans/plot_scan_reader.h"
@@ -24,7 +24,7 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/pipeline_show_ghosts_votes_hypotheses.h"
 #include "settings/initiation_method_names_and_configs.h"
-#include "suggested_next_command.h"
+#include "next_command.h"
 
 struct tracking {
     struct pipeline pipeline;
@@ -64,7 +64,7 @@ static void check_and_set_passive_sensors(struct tracking *tracking,
         struct parameters customary = *parameters;
 
         method_suggest_parameters(METHOD_PASSIVE, &customary);
-        bearing_sensors_fail_if_too_many_or_far(sensors, count, &tracking->pipeline.passive->batch,
+        bearing_sensors_check(sensors, count, &tracking->pipeline.passive->batch,
                                                 &customary);
     }
     for (size_t i = 0; i < count; i++) {
@@ -110,7 +110,7 @@ static void write_show_message(void *context, const char *channel, const uint8_t
 {
     const struct shown *shown = context;
 
-    tracks_output_write_message_to_log(shown->tracks, shown->time_us, channel, data, size);
+    tracks_output_log_message(shown->tracks, shown->time_us, channel, data, size);
 }
 
 static void step_and_write_input(struct tracking *tracking, const struct input *input,
@@ -118,7 +118,7 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
 {
     step_and_time_input(tracking, input);
     if (tracking->pipeline.zones) {
-        zone_events_output_write_events(&tracking->zones, tracking->pipeline.zones);
+        zone_events_output_write(&tracking->zones, tracking->pipeline.zones);
     }
     if (tracks) {
         tracks_output_write_report(tracks, tracking->pipeline.report);
@@ -192,7 +192,7 @@ static bool step_complete_scans(struct tracking *tracking, struct merged_inputs 
  * Steps scans as the file grows, until a signal, the end of a pipe, or the end of the file. Returns
  * why the file ended ("has become shorter"), or NULL.
  */
-static const char *track_growing_file_until_signal_or_end(struct tracking *tracking,
+static const char *track_growing_file(struct tracking *tracking,
                                                           struct merged_inputs *inputs,
                                                           struct tracks_output *tracks,
                                                           int64_t quiet_us)
@@ -206,18 +206,18 @@ static const char *track_growing_file_until_signal_or_end(struct tracking *track
     while (!is_stopped) {
         (void)clutter_map_file_save_if_due(&tracking->clutter,
                                            &tracking->pipeline.tracker->clutter_map);
-        why = plot_scan_reader_why_cannot_be_followed(
+        why = plot_reader_why_not_followed(
             reader); /* rows added before the file ended are still read */
         if (step_complete_scans(tracking, inputs, tracks) ||
-            position != merged_inputs_bytes_read(inputs) || plot_scan_reader_is_mid_row(reader)) {
+            position != merged_inputs_bytes_read(inputs) || plot_reader_is_mid_row(reader)) {
             since_us = monotonic_clock_us();
             position = merged_inputs_bytes_read(inputs);
         }
-        if (why || !plot_scan_reader_waits_for_rows(reader)) {
+        if (why || !plot_reader_waits(reader)) {
             break;
         }
         if (monotonic_clock_us() - since_us >= quiet_us) {
-            plot_scan_reader_complete_scans_so_far(reader);
+            plot_reader_complete_scans(reader);
         }
         nanosleep(&pause, NULL);
     }
@@ -238,7 +238,7 @@ static int64_t follow_quiet_us(const struct parameters *parameters)
 }
 
 /* Tracks a growing input to its end; scans still incomplete at the end are stepped as they are. */
-static const char *follow_input_and_return_why_it_ended(struct tracking *tracking,
+static const char *follow_input(struct tracking *tracking,
                                                         struct merged_inputs *inputs,
                                                         struct tracks_output *tracks,
                                                         const struct parameters *parameters)
@@ -251,9 +251,9 @@ static const char *follow_input_and_return_why_it_ended(struct tracking *trackin
     if (tracks) {
         tracks_output_flush(tracks);
     }
-    why = track_growing_file_until_signal_or_end(tracking, inputs, tracks,
+    why = track_growing_file(tracking, inputs, tracks,
                                                  follow_quiet_us(parameters));
-    plot_scan_reader_end_reading(merged_inputs_scan_reader(inputs));
+    plot_reader_end_reading(merged_inputs_scan_reader(inputs));
     while ((input = merged_inputs_next(inputs)).scan) {
         step_and_write_input(tracking, &input, tracks);
     }
@@ -533,21 +533,21 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
  * Suggests evaluate where a truth.csv stands beside the plots, else a page of the tracks. Notes a
  * scenario.ini beside the plots that was not used.
  */
-static void suggest_evaluate_or_page_command(const struct command_line *line)
+static void suggest_after_track(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
-    char *truth = suggested_next_command_find_file_beside(plots, "truth.csv");
-    char *config = suggested_next_command_find_file_beside(plots, "scenario.ini");
+    char *truth = next_command_find_beside(plots, "truth.csv");
+    char *config = next_command_find_beside(plots, "scenario.ini");
 
     if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
         fprintf(stderr, "rhotrack: %s is beside the plots but was not used (--config)\n", config);
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
-        suggested_next_command_can_read_file(line, truth)) {
-        suggested_next_command_print_on_terminal(
+        next_command_can_read(line, truth)) {
+        next_command_print(
             line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
-        suggested_next_command_print_page(line, line->arguments, line->num_arguments, line->output);
+        next_command_print_page(line, line->arguments, line->num_arguments, line->output);
     }
     free(truth);
     free(config);
@@ -578,7 +578,7 @@ int command_track(struct command_line *line)
     }
     tracking.zones = open_zone_events_output(line);
     if (line->follow) {
-        why = follow_input_and_return_why_it_ended(&tracking, inputs, tracks, &line->parameters);
+        why = follow_input(&tracking, inputs, tracks, &line->parameters);
     } else {
         step_and_write_all_inputs(&tracking, inputs, tracks,
                                   !line->output && isatty(STDOUT_FILENO));
@@ -595,7 +595,7 @@ int command_track(struct command_line *line)
         fail(EXIT_RUNTIME, "%s %s: --follow ends", line->arguments[0], why);
     }
     if (has_tracks) {
-        suggest_evaluate_or_page_command(line);
+        suggest_after_track(line);
     }
     return is_saved ? 0 : EXIT_RUNTIME;
 }

@@ -278,12 +278,12 @@ int main(int argc, char **argv)
         return 0;
     }
     if (command_lab_has(argv[1])) {
-        command_lab_execute_without_return(argv);
+        command_lab_execute(argv);
     }
     command = must_find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);
     if (command->run == command_convert) {
-        command_convert_refuse_radar_as_tracks(&line);
+        convert_refuse_radar(&line);
     }
     command_line_set_origin_and_places(&line);
     const int exit_code = command->run(&line);

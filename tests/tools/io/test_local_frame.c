@@ -182,9 +182,9 @@ static void frames_differ_by_the_meridian_convergence(void **state)
     struct local_frame *east = local_frame_open(50, 12, 0), *south = local_frame_open(48, 10, 300);
 
     (void)state;
-    assert_close(local_frame_meridian_convergence_rad(common, common), 0, 1e-12);
-    assert_close(local_frame_meridian_convergence_rad(south, common), 0, 1e-12);
-    assert_close(local_frame_meridian_convergence_rad(east, common),
+    assert_close(local_frame_convergence_rad(common, common), 0, 1e-12);
+    assert_close(local_frame_convergence_rad(south, common), 0, 1e-12);
+    assert_close(local_frame_convergence_rad(east, common),
                  sin(50 * PI / 180) * 2 * PI / 180, 1e-4);
     local_frame_close(common);
     local_frame_close(east);
@@ -223,7 +223,7 @@ static void check_place_from_range_and_height(const double radar[3], const doubl
     const struct local_frame_plot plot = {.range_m = length_m(seen_m),
                                           .azimuth_rad = atan2(seen_m[1], seen_m[0]),
                                           .alt_m = target[2]};
-    assert_true(local_frame_from_range_and_height(frame, &plot, found_m));
+    assert_true(local_frame_from_slant_range(frame, &plot, found_m));
     /*
      * near the zenith the range hardly depends on the place: tolerance of 0.1 mm of height,
      * converted to ground distance
@@ -260,15 +260,15 @@ static void a_height_that_the_range_cannot_reach_is_refused(void **state)
     double place_m[3] = {1, 2, 3};
 
     (void)state;
-    assert_false(local_frame_from_range_and_height(
+    assert_false(local_frame_from_slant_range(
         radar, &(struct local_frame_plot){5000, 0.3, 5400.01}, place_m));
-    assert_false(local_frame_from_range_and_height(
+    assert_false(local_frame_from_slant_range(
         radar, &(struct local_frame_plot){5000, 0.3, -4600.01}, place_m));
     assert_near(place_m, (double[3]){1, 2, 3}, 0);
-    assert_true(local_frame_from_range_and_height(
+    assert_true(local_frame_from_slant_range(
         radar, &(struct local_frame_plot){5000, 0.3, 5400}, place_m));
     assert_near(place_m, (double[3]){0, 0, 5000}, 1.5);
-    assert_true(local_frame_from_range_and_height(
+    assert_true(local_frame_from_slant_range(
         radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
     assert_close(length_m(place_m), 5000, 1e-6);
     assert_close(atan2(place_m[1], place_m[0]), 0.3, 1e-9);

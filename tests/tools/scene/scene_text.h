@@ -20,7 +20,7 @@
 #include <string.h>
 
 #include "base/portable_math.h"
-#include "scene/scene_objects_seen_repeatedly.h"
+#include "scene/scene_persistent.h"
 #include "scene/scene_observe.h"
 
 /*

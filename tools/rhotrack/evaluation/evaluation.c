@@ -80,7 +80,7 @@ static struct pair_error error_of_pair(size_t target_index, enum evaluation_moti
  * Classifies the target as straight or turning by the change of its velocity since its previous
  * time, and stores its time and velocity for the next call.
  */
-static void classify_target_straight_or_turning(const struct evaluation *e,
+static void classify_target(const struct evaluation *e,
                                                 struct target_life *life,
                                                 const struct evaluation_point *target,
                                                 int64_t time_us)
@@ -183,7 +183,7 @@ static void record_targets_at_time(struct evaluation *e, const struct evaluation
         size_t number = find_or_add_target(e, targets[i].id, scan->time_us);
         struct target_life *life = &e->targets[number];
         life->scans++;
-        classify_target_straight_or_turning(e, life, &targets[i], scan->time_us);
+        classify_target(e, life, &targets[i], scan->time_us);
         if (track_of[i] >= 0) {
             const struct evaluation_point *track = &tracks[track_of[i]];
             struct pair_error error = error_of_pair(number, life->motion, &targets[i], track);

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "initiation/search_last_bearing_frames.h"
-#include "io/output/initiated_tracks_output.h"
+#include "initiation/last_bearings.h"
+#include "io/output/initiated_output.h"
 #include "pipeline/pipeline.h"
 #include "settings/initiation_method_names_and_configs.h"
 
@@ -25,7 +25,7 @@ static enum rho_status search_paper_batch(void *object)
 static void write_found_tracks(const struct rho_passive_paper *paper, int64_t time_us,
                                const char *path)
 {
-    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
     for (unsigned i = 0; i < paper->num_lines; i++) {
         const struct rho_passive_paper_line *line = &paper->lines[i];
@@ -43,9 +43,9 @@ static void write_found_tracks(const struct rho_passive_paper *paper, int64_t ti
                                     paper->batch.num_sensors * (paper->batch.num_sensors - 1u) / 2u,
                                 .score = line->votes};
 
-        initiated_tracks_output_add_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
-    initiated_tracks_output_close(found);
+    initiated_output_close(found);
 }
 
 static void add_line_votes_json(cJSON *object, const struct rho_passive_paper *paper)
@@ -103,7 +103,7 @@ void initiate_passive_paper(const struct command_line *line)
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
     struct parameters parameters = line->parameters;
     struct bearing_frame_reader *reader =
-        last_bearings_open_reader_and_note_distance(line, &parameters);
+        last_bearings_open(line, &parameters);
     struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
     struct bearings_search with = {paper, &paper->batch, push_paper_frame, search_paper_batch};
 

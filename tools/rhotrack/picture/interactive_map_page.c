@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "io/csv/columns.h"
 #include "io/scans/plot_scan_reader.h"
-#include "picture/interactive_map_page_parts.h"
+#include "picture/map_page_parts.h"
 
 /* ---- arrays of numbers, as the page's script reads them: little-endian, in base64 ---- */
 
@@ -127,7 +127,7 @@ static int by_id(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-static uint32_t fate_code_of_plot_taken_by_track(const struct track_ids *ids, int32_t track_id)
+static uint32_t fate_of_plot(const struct track_ids *ids, int32_t track_id)
 {
     const int32_t *found = bsearch(&track_id, ids->list, ids->count, sizeof ids->list[0], by_id);
     return found ? FATE_OF_TRACK + (uint32_t)(found - ids->list) : FATE_OF_TENTATIVE;
@@ -153,7 +153,7 @@ static void add_claims_of_table(struct claims *claims, const struct track_ids *i
         }
         claim.plot = (uint32_t)index;
         claim.fate =
-            fate_code_of_plot_taken_by_track(ids, (int32_t)table_number_or(table, row, id, -1.0));
+            fate_of_plot(ids, (int32_t)table_number_or(table, row, id, -1.0));
         claim.sensor_id = (int32_t)table_number_or(table, row, sensor, 0.0);
         claims->list = must_make_room_for_one(claims->list, claims->count, &claims->capacity,
                                               sizeof claims->list[0]);
@@ -232,7 +232,7 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
     struct claims claims = collect_claims(data);
     uint32_t count = 0;
     if (data->num_plot_paths > 0) {
-        struct plot_scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
+        struct plot_scan_reader *reader = plot_reader_open_sensorless(
             data->plot_paths, data->num_plot_paths, parameters);
         const struct rho_scan *scan;
         while ((scan = plot_scan_reader_next(reader)) != NULL) {
@@ -368,7 +368,7 @@ void html_page_write(const char *path, const struct picture_data *data,
                      const struct parameters *parameters)
 {
     struct output output = output_open(path);
-    const int64_t zero_us = picture_data_late_time_origin_or_0_us(data);
+    const int64_t zero_us = picture_data_time_origin_us(data);
     FILE *file = output.file;
     fprintf(file,
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"

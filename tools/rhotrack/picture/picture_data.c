@@ -55,8 +55,8 @@ static void add_plots_of_table(struct picture_data *data, const struct table *ta
                                const struct parameters *parameters)
 {
     struct plot_points *points = &data->plots;
-    struct measurement_row_columns columns =
-        measurement_row_columns_find(table, parameters, RECORD_PLOTS, false);
+    struct measurement_columns columns =
+        measurement_columns_find(table, parameters, RECORD_PLOTS, false);
     const bool is_polar = columns.in_file.at[COL_RANGE_M] >= 0;
     char reason[ROW_REASON_BYTES];
     for (size_t row = 0; row < table->num_rows; row++) {
@@ -72,7 +72,7 @@ static void add_plots_of_table(struct picture_data *data, const struct table *ta
                                     .y_m = (double)record.plot.y_m};
         }
     }
-    measurement_row_columns_free(&columns);
+    measurement_columns_free(&columns);
 }
 
 static double nan_to_0(double number)
@@ -177,7 +177,7 @@ static void add_points_of_file(struct picture_data *data, const char *path,
 
 static void list_bearing_sensors(struct plot_rays *rays, const struct bearing_frame_reader *reader)
 {
-    const struct frame_sensor *sensors = bearing_frame_reader_sensors(reader, &rays->num_sensors);
+    const struct frame_sensor *sensors = bearing_reader_sensors(reader, &rays->num_sensors);
     rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
     for (size_t i = 0; i < rays->num_sensors; i++) {
         rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
@@ -214,7 +214,7 @@ static void read_all_bearings(struct plot_rays *rays, char *const *paths, int nu
     const struct rho_frame *frame;
     list_bearing_sensors(rays, reader);
     rays->list =
-        must_calloc(bearing_frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
+        must_calloc(bearing_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
     while ((frame = bearing_frame_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
             const struct rho_bearing_scan *scan = &frame->scans[i];
@@ -329,7 +329,7 @@ struct picture_data picture_data_read(char *const *paths, int num_paths,
 }
 
 /* The earliest time of the points, or otherwise_us if that is earlier. */
-static int64_t earliest_of_points_and_given_time_us(const struct plot_points *points,
+static int64_t earliest_time_us(const struct plot_points *points,
                                                     int64_t otherwise_us)
 {
     for (size_t i = 0; i < points->count; i++) {
@@ -339,11 +339,11 @@ static int64_t earliest_of_points_and_given_time_us(const struct plot_points *po
     return otherwise_us;
 }
 
-int64_t picture_data_late_time_origin_or_0_us(const struct picture_data *data)
+int64_t picture_data_time_origin_us(const struct picture_data *data)
 {
-    int64_t zero_us = earliest_of_points_and_given_time_us(&data->truth, INT64_MAX);
-    zero_us = earliest_of_points_and_given_time_us(
-        &data->plots, earliest_of_points_and_given_time_us(&data->tracks, zero_us));
+    int64_t zero_us = earliest_time_us(&data->truth, INT64_MAX);
+    zero_us = earliest_time_us(
+        &data->plots, earliest_time_us(&data->tracks, zero_us));
     for (size_t i = 0; i < data->bearings.count; i++) {
         const int64_t time_us = data->bearings.list[i].time_us;
         zero_us = time_us < zero_us ? time_us : zero_us;
@@ -351,9 +351,9 @@ int64_t picture_data_late_time_origin_or_0_us(const struct picture_data *data)
     return zero_us == INT64_MAX || llabs(zero_us) < LATE_US ? 0 : zero_us;
 }
 
-void picture_data_write_time_axis_label(const struct picture_data *data, char *text, size_t size)
+void picture_data_write_time_label(const struct picture_data *data, char *text, size_t size)
 {
-    const int64_t zero_us = picture_data_late_time_origin_or_0_us(data);
+    const int64_t zero_us = picture_data_time_origin_us(data);
     if (zero_us == 0) {
         snprintf(text, size, "time (s)");
     } else {

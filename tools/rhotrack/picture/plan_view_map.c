@@ -171,7 +171,7 @@ double map_round_down_to_1_2_5(double value)
  * Radius of the largest range ring: distance to the farthest corner of the map, or the radar's
  * maximum range if that is less.
  */
-static double radius_to_farthest_map_corner_or_range_max_m(const struct map *map,
+static double farthest_ring_radius_m(const struct map *map,
                                                            const struct plot_radar *radar)
 {
     const double x_m =
@@ -221,7 +221,7 @@ static void label_range_ring(const struct map *map, const struct plot_radar *rad
 /* Spacing of the radar's range rings in metres, and their number in *count. */
 static double ring_spacing_m(const struct map *map, const struct plot_radar *radar, int *count)
 {
-    const double farthest_m = fmax(radius_to_farthest_map_corner_or_range_max_m(map, radar), 1.0);
+    const double farthest_m = fmax(farthest_ring_radius_m(map, radar), 1.0);
     const double step_m = map_round_down_to_1_2_5(farthest_m / RINGS);
     *count = (int)floor(farthest_m / step_m + 1e-9);
     return step_m;
@@ -268,7 +268,7 @@ static void put_coverage_outline(const struct map *map, const struct plot_radar 
     fputc('\n', map->script);
 }
 
-void map_write_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
+void map_write_range_rings(const struct map *map, const struct plot_radar *radars,
                                         size_t count)
 {
     fprintf(map->script, "$rings << EOD\n");
@@ -285,7 +285,7 @@ void map_write_range_rings_and_coverage(const struct map *map, const struct plot
     }
 }
 
-void map_draw_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
+void map_draw_range_rings(const struct map *map, const struct plot_radar *radars,
                                        size_t count)
 {
     bool is_limited = false;

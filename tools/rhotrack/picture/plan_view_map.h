@@ -68,13 +68,13 @@ void map_write_sampled_plots(const struct map *map, const struct plot_points *pl
 void map_draw_plots(const struct map *map, const struct plot_points *plots);
 
 /*
- * map_write_range_rings_and_coverage writes data blocks and labels, before the command plot: range
+ * map_write_range_rings writes data blocks and labels, before the command plot: range
  * rings (for at most three radars: more would hide the rest) and coverage where it is known.
- * map_draw_range_rings_and_coverage writes the clauses of the command plot that draw them.
+ * map_draw_range_rings writes the clauses of the command plot that draw them.
  */
-void map_write_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
+void map_write_range_rings(const struct map *map, const struct plot_radar *radars,
                                         size_t count);
-void map_draw_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
+void map_draw_range_rings(const struct map *map, const struct plot_radar *radars,
                                        size_t count);
 
 /* Interval in points between markers of a path, so that neighbouring markers can be told apart. */

@@ -111,10 +111,10 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
     for (size_t i = 0; i < num_sensors; i++) {
         put_echoes_of_sensor(&map, echoes, count, sensors[i].sensor_id, i);
     }
-    map_write_range_rings_and_coverage(&map, sensors, num_sensors);
+    map_write_range_rings(&map, sensors, num_sensors);
     map_write_sampled_plots(&map, &data->plots, 0);
     fprintf(map.script, "unset grid\nplot NaN notitle");
-    map_draw_range_rings_and_coverage(&map, sensors, num_sensors);
+    map_draw_range_rings(&map, sensors, num_sensors);
     map_draw_plots(&map, &data->plots);
     for (size_t i = 0; i < num_sensors; i++) {
         fprintf(map.script,

@@ -81,7 +81,7 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
     fprintf(script, "EOD\n");
 }
 
-static void put_theta_and_rho_of_track_lines(FILE *script, const struct plot_points *tracks,
+static void put_track_lines(FILE *script, const struct plot_points *tracks,
                                              double unit_m)
 {
     struct plot_points one;
@@ -101,7 +101,7 @@ static void put_theta_and_rho_of_track_lines(FILE *script, const struct plot_poi
  * Reads the plots again as scans and returns the last ones: the table of plots does not show which
  * belong to one scan.
  */
-struct revolutions plot_parameter_space_read_last_scans(const struct picture_data *data,
+struct revolutions plot_parameter_space_read(const struct picture_data *data,
                                                         const struct parameters *parameters,
                                                         size_t scans)
 {
@@ -113,7 +113,7 @@ struct revolutions plot_parameter_space_read_last_scans(const struct picture_dat
                  data->plot_paths[i]);
         }
     }
-    struct plot_scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
+    struct plot_scan_reader *reader = plot_reader_open_sensorless(
         data->plot_paths, data->num_plot_paths, parameters);
     struct revolutions revolutions = revolutions_read_last(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {
@@ -127,14 +127,14 @@ struct revolutions plot_parameter_space_read_last_scans(const struct picture_dat
     return revolutions;
 }
 
-void plot_hough_votes_and_track_lines(struct picture *picture, const struct picture_data *data,
+void plot_hough_votes(struct picture *picture, const struct picture_data *data,
                                       const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
     cast_all_votes(votes, revolutions);
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
-    put_theta_and_rho_of_track_lines(picture->script, &data->tracks, unit_m);
+    put_track_lines(picture->script, &data->tracks, unit_m);
     picture_set_title(picture, "Parameter space: the lines through the plots of the last %zu scans",
                       revolutions->count);
     fprintf(

@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "registration/cholesky.h"
-#include "registration/register_path_segments_and_equations.h"
+#include "registration/register_equations.h"
 #include "registration/register_shared_data_and_plot_correction.h"
 
 /*
@@ -216,7 +216,7 @@ struct solution register_solve_biases(struct register_data *data, size_t referen
     for (size_t i = 0; i < normal.num; i++) {
         solution.sigma[i] =
             solution.misfit * unit[i % NUM_REGISTER_KINDS] *
-            sqrt(cholesky_inverse_diagonal_element(normal.matrix, normal.num, i, work));
+            sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
     }
     solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
     free(work);

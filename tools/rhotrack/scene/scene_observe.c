@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "base/portable_math.h"
-#include "scene/scene_objects_seen_repeatedly.h"
+#include "scene/scene_persistent.h"
 
 #define RANGE_LEAST_M 0.01 /* shortest range that a plot gets: the last digit in the file */
 /*
@@ -179,7 +179,7 @@ static double pd_at_range(const struct scene_curve *curve, double range_m)
 }
 
 /* Stores a plot: assigns its scan, limits range and azimuth, and folds an ambiguous range rate. */
-static void assign_scan_fold_range_rate_and_append_plot(struct observer *observer,
+static void append_plot_to_scan(struct observer *observer,
                                                         struct scene_plot plot)
 {
     const struct scene_sensor *sensor = observer->sensor;
@@ -247,7 +247,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
 {
     const struct scene_sensor *sensor = observer->sensor;
     double at_s = after_s;
-    bool is_there = mover_motion_folded_to_unambiguous_range_at(mover, sensor, at_s, &sighting->at);
+    bool is_there = folded_motion_at(mover, sensor, at_s, &sighting->at);
 
     for (int i = 0; sensor->turns && i < SIGHTING_ITERATIONS; i++) {
         double azimuth_rad =
@@ -256,7 +256,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
             turn_share_until_azimuth(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
 
         at_s += (i > 0 && ahead > 0.5 ? ahead - 1.0 : ahead) * sensor->turn_s;
-        is_there = mover_motion_folded_to_unambiguous_range_at(mover, sensor, at_s, &sighting->at);
+        is_there = folded_motion_at(mover, sensor, at_s, &sighting->at);
     }
     sighting->t_s = at_s;
     sighting->range_m =
@@ -396,7 +396,7 @@ static void add_split_plots(struct observer *observer, const struct sighting *si
                 random_in_span(&random, event->azimuth_rad);
             second.x_m += sensor->sigma_m * random_in_span(&random, event->range_sigmas);
             second.y_m += sensor->sigma_m * random_in_span(&random, event->azimuth_sigmas);
-            assign_scan_fold_range_rate_and_append_plot(observer, second);
+            append_plot_to_scan(observer, second);
         }
     }
 }
@@ -421,7 +421,7 @@ static void add_image_plots(struct observer *observer, const struct sighting *si
         image.target_id = -1;
         image.range_m = portable_hypot(image.at.x_m - sensor->x_m, image.at.y_m - sensor->y_m);
         image.azimuth_rad = portable_atan2(image.at.y_m - sensor->y_m, image.at.x_m - sensor->x_m);
-        assign_scan_fold_range_rate_and_append_plot(
+        append_plot_to_scan(
             observer, noisy_plot_of_sighting(sensor, &image, &random));
     }
 }
@@ -455,7 +455,7 @@ static bool are_unresolved(const struct scene_sensor *sensor, const struct sight
  * Groups sightings, sorted by time, that the sensor does not resolve: pairwise unresolved ones get
  * one group number.
  */
-static void number_groups_of_unresolved_sightings(struct observer *observer)
+static void number_unresolved_groups(struct observer *observer)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double window_s =
@@ -589,7 +589,7 @@ static void add_body_plots(struct observer *observer, const struct scene_body *b
 
         if (random_uniform(&look) < pd &&
             is_place_in_coverage(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
-            assign_scan_fold_range_rate_and_append_plot(observer,
+            append_plot_to_scan(observer,
                                                         noisy_plot_of_sighting(sensor, &on, &look));
             add_image_plots(observer, &on);
         }
@@ -643,7 +643,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
         one->is_seen = random_uniform(&random) <
                        faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);
     }
-    number_groups_of_unresolved_sightings(observer);
+    number_unresolved_groups(observer);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         if (observer->sightings[i].group == i) {
             struct sighting middle = merge_sighting_group(observer, i);
@@ -651,7 +651,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
             random_uniform(&random); /* skip the number that decided the detection */
             if (middle.is_seen) {
-                assign_scan_fold_range_rate_and_append_plot(
+                append_plot_to_scan(
                     observer, noisy_plot_of_sighting(observer->sensor, &middle, &random));
                 add_split_plots(observer, &middle);
                 add_image_plots(observer, &middle);
@@ -662,7 +662,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
 /* ---- clutter ---- */
 
-static void add_plot_of_persistent_clutter_object(struct observer *observer,
+static void add_persistent_clutter(struct observer *observer,
                                                   const struct scene_mover *mover,
                                                   struct sighting *sighting, uint64_t item)
 {
@@ -671,21 +671,21 @@ static void add_plot_of_persistent_clutter_object(struct observer *observer,
                             (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
 
     if (random_uniform(&random) < mover->pd) {
-        assign_scan_fold_range_rate_and_append_plot(
+        append_plot_to_scan(
             observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
     }
 }
 
-static void observe_persistent_clutter_objects(struct observer *observer,
+static void observe_persistent_clutter(struct observer *observer,
                                                const struct scene_run *run, size_t source)
 {
     struct scene_path *paths;
     size_t count, num_paths;
-    struct scene_mover *movers = draw_persistent_clutter_objects(
+    struct scene_mover *movers = draw_persistent_clutter(
         run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
 
     for (size_t i = 0; i < count; i++) {
-        for_each_detectable_sighting(observer, &movers[i], add_plot_of_persistent_clutter_object,
+        for_each_detectable_sighting(observer, &movers[i], add_persistent_clutter,
                                      (uint64_t)source << 32 | i);
     }
     for (size_t i = 0; i < num_paths; i++) {
@@ -699,7 +699,7 @@ static void observe_persistent_clutter_objects(struct observer *observer,
  * Stores a clutter plot at the time at which the antenna passes it in this turn, unless hidden or
  * out of coverage.
  */
-static void store_clutter_plot_unless_hidden(struct observer *observer, size_t turn, double range_m,
+static void store_clutter_plot(struct observer *observer, size_t turn, double range_m,
                                              double azimuth_rad, double x_m, double y_m,
                                              double rate_mps)
 {
@@ -714,7 +714,7 @@ static void store_clutter_plot_unless_hidden(struct observer *observer, size_t t
     if (range_m > 0.0 &&
         is_free_of_outage_and_mask(observer->scene, observer->index, t_s, range_m, azimuth_rad) &&
         (sensor->is_cartesian || is_in_coverage(&sensor->coverage, range_m, azimuth_rad))) {
-        assign_scan_fold_range_rate_and_append_plot(
+        append_plot_to_scan(
             observer, (struct scene_plot){.t_s = t_s,
                                           .target_id = -1,
                                           .range_m = range_m + sensor->range_bias_m,
@@ -730,7 +730,7 @@ static void store_clutter_plot_at_xy(struct observer *observer, size_t turn, dou
 {
     double dx_m = x_m - observer->sensor->x_m, dy_m = y_m - observer->sensor->y_m;
 
-    store_clutter_plot_unless_hidden(observer, turn, portable_hypot(dx_m, dy_m),
+    store_clutter_plot(observer, turn, portable_hypot(dx_m, dy_m),
                                      portable_atan2(dy_m, dx_m), x_m, y_m, rate_mps);
 }
 
@@ -766,7 +766,7 @@ static void add_uniform_clutter_plot(struct observer *observer, const struct sce
 
         azimuth_limits(clutter->within.has_sector ? &clutter->within : coverage, &from_rad,
                        &to_rad);
-        store_clutter_plot_unless_hidden(observer, turn, range_m,
+        store_clutter_plot(observer, turn, range_m,
                                          random_between(random, from_rad, to_rad), 0, 0, rate_mps);
     }
 }
@@ -810,7 +810,7 @@ static void add_strobe_plot(struct observer *observer, const struct scene_clutte
         random_between(random, -observer->scene->v_max_mps, observer->scene->v_max_mps);
 
     azimuth_rad = portable_wrap_angle(azimuth_rad);
-    store_clutter_plot_unless_hidden(observer, turn, range_m, azimuth_rad,
+    store_clutter_plot(observer, turn, range_m, azimuth_rad,
                                      sensor->x_m + range_m * portable_cos(azimuth_rad),
                                      sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
 }
@@ -886,7 +886,7 @@ static double mean_clutter_plots_per_scan(const struct scene *scene,
 }
 
 /* Adds the plots of uniform, cell and strobe clutter, which are drawn anew each scan. */
-static void observe_clutter_drawn_anew_each_scan(struct observer *observer, size_t source)
+static void observe_scan_clutter(struct observer *observer, size_t source)
 {
     const struct scene_clutter *clutter = &observer->scene->clutter[source];
     double mean = mean_clutter_plots_per_scan(observer->scene, clutter);
@@ -922,7 +922,7 @@ static void observe_false_bearings(struct observer *observer)
         uint64_t count = random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
-            store_clutter_plot_unless_hidden(
+            store_clutter_plot(
                 observer, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
                 random_between(&random, sensor->false_from_rad, sensor->false_to_rad), 0, 0, 0);
         }
@@ -1043,11 +1043,11 @@ static void observe_whole_run_with_sensor(struct observer *observer, const struc
             continue;
         }
         if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
-            observe_clutter_drawn_anew_each_scan(observer, i);
+            observe_scan_clutter(observer, i);
         } else if (kind == CLUTTER_ABOUT_TARGETS) {
             observe_clutter_about_targets(observer, run, i);
         } else {
-            observe_persistent_clutter_objects(observer, run, i);
+            observe_persistent_clutter(observer, run, i);
         }
     }
     if (observer->sensor->is_passive) {

@@ -168,7 +168,7 @@ static void read_antenna_motion(struct json_object *object, struct scene_sensor 
     sensor->late_s = json_read_number(object, "late_s", 0, 60, 0);
 }
 
-static void read_range_and_azimuth_resolution(struct json_object *object,
+static void read_resolution(struct json_object *object,
                                               struct scene_sensor *sensor)
 {
     sensor->resolution_m = json_read_number(object, "resolution_m", 0, 1e5, 0);
@@ -204,7 +204,7 @@ static void read_radar(struct json_object *object, struct scene_sensor *sensor)
             json_fail_key(object, "range_rate_span_mps", "must be 0 or 1 and more");
         }
     }
-    read_range_and_azimuth_resolution(object, sensor);
+    read_resolution(object, sensor);
 }
 
 static void read_passive_sensor(struct json_object *object, struct scene_sensor *sensor)
@@ -406,7 +406,7 @@ static void read_clutter_about_targets(struct json_object *object, struct scene_
  * Checks that uniformly distributed clutter has an area, and that clutter drawn anew each scan is
  * not seen by a radar that measures velocities, which it does not have.
  */
-static void check_clutter_has_area_and_velocity(const struct scene *scene,
+static void check_clutter(const struct scene *scene,
                                                 const struct json_object *object,
                                                 const struct scene_clutter *clutter)
 {
@@ -446,7 +446,7 @@ static void read_and_append_clutter(struct scene *scene, struct json_object *obj
     clutter->within = anywhere;
     read_from_and_until(object, &clutter->from_s, &clutter->until_s);
     readers[clutter->kind](object, clutter);
-    check_clutter_has_area_and_velocity(scene, object, clutter);
+    check_clutter(scene, object, clutter);
     json_refuse_unknown_keys(object);
     scene->num_clutter++;
 }

@@ -8,7 +8,7 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "base/number_and_time_parsing.h"
+#include "base/parse.h"
 
 static const struct parameter_text texts[NUM_PARAMETERS] = {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text)                          \

@@ -73,7 +73,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
         .channel = provider->channel,
         .data = provider->data,
         .size = provider->size,
-        .received_us = transport_monotonic_reception_time_us(transport, provider->time_us)};
+        .received_us = transport_reception_time_us(transport, provider->time_us)};
     return TRANSPORT_MESSAGE;
 }
 

@@ -41,7 +41,7 @@ int64_t transport_now_us(struct transport *transport)
     return now_us;
 }
 
-int64_t transport_monotonic_reception_time_us(struct transport *transport, int64_t time_us)
+int64_t transport_reception_time_us(struct transport *transport, int64_t time_us)
 {
     int64_t before_us = transport->last_us, now_us = transport_now_us(transport);
 

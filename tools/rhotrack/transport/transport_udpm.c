@@ -295,7 +295,7 @@ static int64_t read_reception_time_and_drops(struct transport *transport, struct
         }
     }
     return time_us == INT64_MAX ? transport_now_us(transport)
-                                : transport_monotonic_reception_time_us(transport, time_us);
+                                : transport_reception_time_us(transport, time_us);
 }
 
 /* True for a datagram that this program sent itself, which multicast loops back. */
@@ -324,7 +324,7 @@ static bool is_source_admitted(struct transport *transport, struct udpm *udpm,
  * Parses a datagram into a message. Returns false, and counts a refusal, where it is not an LCM
  * message; long messages of other programs are recognised by their channel and not counted.
  */
-static bool parse_datagram_as_one_whole_message(struct transport *transport, struct mmsghdr *here,
+static bool parse_whole_message(struct transport *transport, struct mmsghdr *here,
                                                 const uint8_t *bytes,
                                                 struct transport_message *message)
 {
@@ -363,7 +363,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
         int i = udpm->next++;
 
         if (is_source_admitted(transport, udpm, &udpm->sources[i]) &&
-            parse_datagram_as_one_whole_message(transport, &udpm->here[i], udpm->bytes[i],
+            parse_whole_message(transport, &udpm->here[i], udpm->bytes[i],
                                                 message)) {
             message->sender = (struct transport_sender){ntohl(udpm->sources[i].sin_addr.s_addr),
                                                         ntohs(udpm->sources[i].sin_port),

@@ -202,7 +202,7 @@ static _Noreturn void fail_at_bad_byte(const struct asterix_file *file,
 {
     if (file->captured) {
         fail(EXIT_USAGE, "%s: packet %" PRIu64 ", byte %zu of its content: %s", file->path,
-             captured_datagrams_packet_number(file->captured), file->at + error->at, error->reason);
+             captured_datagrams_packet(file->captured), file->at + error->at, error->reason);
     }
     fail(EXIT_USAGE, "%s: byte %" PRIu64 ": %s", file->path, file->offset + file->at + error->at,
          error->reason);
@@ -306,7 +306,7 @@ uint64_t asterix_file_position(const struct asterix_file *file)
     return file->offset + file->at;
 }
 
-uint64_t asterix_file_num_skipped_blocks(const struct asterix_file *file, uint8_t category)
+uint64_t asterix_file_skipped_blocks(const struct asterix_file *file, uint8_t category)
 {
     return file->others[category];
 }
@@ -363,12 +363,12 @@ void asterix_file_report_skipped(const struct asterix_file *file)
     }
     if (file->captured && captured_datagrams_why_cut(file->captured)) {
         fprintf(stderr, "rhotrack: %s: after packet %" PRIu64 ": %s; the rest is left out\n",
-                file->path, captured_datagrams_packet_number(file->captured),
+                file->path, captured_datagrams_packet(file->captured),
                 captured_datagrams_why_cut(file->captured));
     }
-    if (file->captured && captured_datagrams_num_incomplete(file->captured) > 0) {
+    if (file->captured && captured_datagrams_incomplete(file->captured) > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams left out: fragments, or truncated\n",
-                file->path, captured_datagrams_num_incomplete(file->captured));
+                file->path, captured_datagrams_incomplete(file->captured));
     }
 }
 

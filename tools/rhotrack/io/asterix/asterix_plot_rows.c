@@ -79,7 +79,7 @@ struct output_row {
  * Azimuth in radians counter-clockwise from east, -pi .. pi, from ASTERIX units clockwise from
  * north.
  */
-static double ccw_from_east_rad_from_azimuth_units(uint32_t azimuth)
+static double azimuth_rad_from_units(uint32_t azimuth)
 {
     return remainder(PI / 2 - 2 * PI / ASTERIX_TURN * azimuth, 2 * PI);
 }
@@ -99,7 +99,7 @@ static void put_plot_cells(struct output_row *row, const struct asterix_scan_plo
 {
     put_rounded_cell(row, AT_RANGE_M,
                      mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
-    put_rounded_cell(row, AT_AZIMUTH_RAD, ccw_from_east_rad_from_azimuth_units(mark->azimuth));
+    put_rounded_cell(row, AT_AZIMUTH_RAD, azimuth_rad_from_units(mark->azimuth));
     if (mark->has_alt) {
         put_rounded_cell(row, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
     }
@@ -138,9 +138,9 @@ static struct output_row make_row_of_plot_or_scan_start(const struct asterix_sca
     if (!scan->is_turn) {
         put_rounded_cell(
             &row, AT_SECTOR_FROM_RAD,
-            ccw_from_east_rad_from_azimuth_units(scan->look.from + scan->look.advance));
+            azimuth_rad_from_units(scan->look.from + scan->look.advance));
         put_rounded_cell(&row, AT_SECTOR_TO_RAD,
-                         ccw_from_east_rad_from_azimuth_units(scan->look.from));
+                         azimuth_rad_from_units(scan->look.from));
     }
     if (scan->is_numbered) {
         put_rounded_cell(&row, AT_SCAN, scan->number);
@@ -264,7 +264,7 @@ void asterix_plot_rows_report_left_out(const char *path, const struct asterix_co
  * Notes the radar of a record and the columns that it fills. Returns whether it can be used: it has
  * a place of a plot, or the type and time of an antenna message.
  */
-static bool preview_record_and_tell_if_usable(struct asterix_plot_rows *records,
+static bool preview_record(struct asterix_plot_rows *records,
                                               const struct asterix_record *record)
 {
     struct asterix_service service;
@@ -289,9 +289,9 @@ static void preview_recording(struct asterix_plot_rows *records, bool keep_going
     bool has_any = false;
 
     while (asterix_file_next_record(file, &record)) {
-        has_any |= preview_record_and_tell_if_usable(records, &record);
+        has_any |= preview_record(records, &record);
     }
-    if (!has_any && asterix_file_num_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
+    if (!has_any && asterix_file_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
         fail(EXIT_USAGE, "%s: %s", records->path, asterix_plot_rows_no_tracks);
     }
     if (!has_any) {
@@ -346,7 +346,7 @@ asterix_plot_rows_open(const char *path, const struct parameters *parameters, bo
     return records;
 }
 
-void asterix_plot_rows_suppress_end_summary(struct asterix_plot_rows *records)
+void asterix_plot_rows_set_quiet(struct asterix_plot_rows *records)
 {
     records->is_hushed = true;
 }

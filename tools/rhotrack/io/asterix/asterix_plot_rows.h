@@ -30,7 +30,7 @@ struct asterix_plot_rows *
 asterix_plot_rows_open(const char *path, const struct parameters *parameters, bool keep_going);
 
 /* Suppresses all reports on standard error at the end of the file. */
-void asterix_plot_rows_suppress_end_summary(struct asterix_plot_rows *records);
+void asterix_plot_rows_set_quiet(struct asterix_plot_rows *records);
 
 /* Error message for tracks (CAT062) given as input where plots are needed. */
 extern const char asterix_plot_rows_no_tracks[];

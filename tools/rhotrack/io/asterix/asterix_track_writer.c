@@ -31,14 +31,14 @@ struct asterix_track_writer {
     size_t size; /* bytes of the block so far; 0: none is begun */
 };
 
-bool asterix_track_writer_path_is_asterix(const char *path)
+bool asterix_track_writer_is_path(const char *path)
 {
     return path && (path_ends_with(path, ".ast") || path_ends_with(path, ".asterix"));
 }
 
-void asterix_track_writer_refuse_covariance(const char *path, bool with_covariance)
+void asterix_track_writer_check(const char *path, bool with_covariance)
 {
-    if (with_covariance && asterix_track_writer_path_is_asterix(path)) {
+    if (with_covariance && asterix_track_writer_is_path(path)) {
         fail(EXIT_USAGE,
              "%s: CAT062 cannot hold covariances (--covariance); it has standard deviations "
              "(I062/500) in any case",
@@ -200,7 +200,7 @@ static void add_end_record(struct asterix_track_writer *tracks, const struct ent
 }
 
 /* Writes the list's tracks, and end records of those that only the list before had, by track_id. */
-static void write_track_list_and_ends_of_gone_tracks(struct asterix_track_writer *tracks,
+static void write_list_and_ends(struct asterix_track_writer *tracks,
                                                      uint32_t time_128)
 {
     const struct list *before = &tracks->before;
@@ -231,13 +231,13 @@ static void write_and_keep_list(struct asterix_track_writer *tracks, int64_t uti
     if (tracks->now.count > 0) {
         qsort(tracks->now.entries, tracks->now.count, sizeof *tracks->now.entries, by_track_id);
     }
-    write_track_list_and_ends_of_gone_tracks(tracks, time_of_day_128(utime));
+    write_list_and_ends(tracks, time_of_day_128(utime));
     tracks->before = tracks->now;
     tracks->now = before;
     tracks->now.count = 0;
 }
 
-void asterix_track_writer_add_list_part(struct asterix_track_writer *tracks,
+void asterix_track_writer_add(struct asterix_track_writer *tracks,
                                         const struct rho_message_track_list *message)
 {
     for (int i = 0; i < message->num_tracks; i++) {

@@ -70,7 +70,7 @@ static void need_origin(const struct columns *columns, const struct parameters *
     }
 }
 
-struct geodetic_columns *geodetic_columns_open(const struct table *table,
+struct geodetic_columns *geodetic_open(const struct table *table,
                                                const struct parameters *parameters)
 {
     const struct columns columns = columns_find(table);
@@ -85,7 +85,7 @@ struct geodetic_columns *geodetic_columns_open(const struct table *table,
     return geodetic;
 }
 
-void geodetic_columns_close(struct geodetic_columns *geodetic)
+void geodetic_close(struct geodetic_columns *geodetic)
 {
     if (!geodetic) {
         return;
@@ -106,7 +106,7 @@ static const struct local_frame *origin_frame(struct geodetic_columns *geodetic)
     return geodetic->origin;
 }
 
-bool geodetic_columns_has_place_columns(const struct geodetic_columns *geodetic)
+bool geodetic_has_places(const struct geodetic_columns *geodetic)
 {
     return geodetic && !geodetic->is_polar && geodetic->has_lat;
 }
@@ -132,7 +132,7 @@ static bool check_distance_to_origin(const struct row_check *check, enum column_
                       (double)RHO_LIMIT_POSITION_M / 1000);
 }
 
-bool geodetic_columns_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
+bool geodetic_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
                                  double place_m[3], bool *has_alt)
 {
     double on_earth[3] = {0, 0, geodetic->parameters->value[PARAMETER_ORIGIN_ALT_M]};
@@ -199,7 +199,7 @@ static bool find_radar_place(const struct geodetic_columns *geodetic, const stru
                              int32_t sensor_id, double on_earth[3], bool *is_said)
 {
     const struct parameters *parameters = geodetic->parameters;
-    bool has_known = parameters_geodetic_place_of_sensor(parameters, sensor_id, on_earth);
+    bool has_known = parameters_sensor_geodetic(parameters, sensor_id, on_earth);
 
     *is_said = row_has_cell(check, COL_SENSOR_LAT_DEG) || row_has_cell(check, COL_SENSOR_LON_DEG);
     if (*is_said) {
@@ -222,7 +222,7 @@ static bool find_radar_place(const struct geodetic_columns *geodetic, const stru
                "sensor_alt_m is given without sensor_lat_deg or the sensor's parameter lat_deg");
 }
 
-bool geodetic_columns_find_radar_frame(struct geodetic_columns *geodetic,
+bool geodetic_radar_frame(struct geodetic_columns *geodetic,
                                        const struct row_check *check, int32_t sensor_id,
                                        const struct radar_axes **frame)
 {
@@ -243,7 +243,7 @@ bool geodetic_columns_find_radar_frame(struct geodetic_columns *geodetic,
 
 /* The radar's frame; with an origin also for a radar whose position is given in metres. */
 static const struct radar_axes *frame_of_polar_plot(struct geodetic_columns *geodetic,
-                                                    const struct geodetic_columns_polar *polar)
+                                                    const struct geodetic_polar *polar)
 {
     double on_earth[3];
 
@@ -256,7 +256,7 @@ static const struct radar_axes *frame_of_polar_plot(struct geodetic_columns *geo
 
 static bool read_target_height(const struct geodetic_columns *geodetic,
                                const struct row_check *check,
-                               const struct geodetic_columns_polar *polar,
+                               const struct geodetic_polar *polar,
                                struct radar_height *height)
 {
     const struct parameters *parameters = geodetic->parameters;
@@ -276,7 +276,7 @@ static bool read_target_height(const struct geodetic_columns *geodetic,
  */
 static bool set_elevation_from_height(struct geodetic_columns *geodetic,
                                       const struct row_check *check,
-                                      struct geodetic_columns_polar *polar)
+                                      struct geodetic_polar *polar)
 {
     double range_m = polar->look.range_m;
     double bias_m = parameters_value_of_sensor(geodetic->parameters, polar->sensor_id,
@@ -289,7 +289,7 @@ static bool set_elevation_from_height(struct geodetic_columns *geodetic,
     polar->look.range_m -= bias_m;
     polar->has_elevation =
         polar->look.range_m > 0 &&
-        radar_axes_elevation_from_height(frame_of_polar_plot(geodetic, polar), polar->place_m[2],
+        radar_axes_height_elevation(frame_of_polar_plot(geodetic, polar), polar->place_m[2],
                                          &height, &polar->look, &polar->sigma_elevation_rad);
     polar->look.range_m = range_m;
     return polar->has_elevation ||
@@ -297,9 +297,9 @@ static bool set_elevation_from_height(struct geodetic_columns *geodetic,
                       height.alt_m, range_m);
 }
 
-bool geodetic_columns_turn_polar_to_local_frame(struct geodetic_columns *geodetic,
+bool geodetic_turn_polar(struct geodetic_columns *geodetic,
                                                 const struct row_check *check,
-                                                struct geodetic_columns_polar *polar)
+                                                struct geodetic_polar *polar)
 {
     if (row_has_cell(check, COL_ALT_M)) {
         return set_elevation_from_height(geodetic, check, polar);

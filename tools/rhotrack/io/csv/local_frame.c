@@ -89,7 +89,7 @@ void local_frame_convert_place(const struct local_frame *from, const struct loca
     local_frame_to_local(to, geodetic, other_m);
 }
 
-double local_frame_meridian_convergence_rad(const struct local_frame *from,
+double local_frame_convergence_rad(const struct local_frame *from,
                                             const struct local_frame *to)
 {
     static const double origin_m[3] = {0, 0, 0}, north_m[3] = {0, 1000, 0};
@@ -118,7 +118,7 @@ static void place_at_elevation(const struct local_frame_plot *plot, double sin_e
  * s)^2 + r^2 + 2 (a + s) r sin e, whose derivative is used on the ellipsoid: the error of each step
  * is relative to its flattening, 1/298.
  */
-bool local_frame_from_range_and_height(const struct local_frame *radar,
+bool local_frame_from_slant_range(const struct local_frame *radar,
                                        const struct local_frame_plot *plot, double place_m[3])
 {
     enum { STEPS_MAX = 50 };

@@ -50,7 +50,7 @@ struct local_frame_plot {
  * on the ellipsoid, to 0.1 mm. Returns false, with place_m unchanged, where the height differs from
  * the radar's by more than range_m.
  */
-bool local_frame_from_range_and_height(const struct local_frame *radar,
+bool local_frame_from_slant_range(const struct local_frame *radar,
                                        const struct local_frame_plot *plot, double place_m[3]);
 
 /* Converts a position from one frame to another. Both arrays may be the same. */
@@ -63,7 +63,7 @@ void local_frame_convert_place(const struct local_frame *from, const struct loca
  * `to`, except for the tilt of the horizons (0.9 degrees at 100 km, which turns level lines by at
  * most 0.00013 rad).
  */
-double local_frame_meridian_convergence_rad(const struct local_frame *from,
+double local_frame_convergence_rad(const struct local_frame *from,
                                             const struct local_frame *to);
 
 #endif

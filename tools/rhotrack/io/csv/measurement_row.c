@@ -8,7 +8,7 @@
 /* A row being read and checked. */
 struct row_reading {
     struct row_check cells;
-    const struct measurement_row_columns *columns;
+    const struct measurement_columns *columns;
     const struct parameters *parameters;
 };
 
@@ -18,7 +18,7 @@ static bool has_bearings_alone(const struct columns *columns)
            columns->at[COL_RANGE_M] < 0;
 }
 
-bool measurement_row_table_has_bearings(const struct table *table)
+bool measurement_row_is_bearings(const struct table *table)
 {
     const struct columns columns = columns_find(table);
 
@@ -94,26 +94,26 @@ static void check_plot_columns(struct columns *columns, bool needs_sensor)
     columns_need_both(columns, COL_SECTOR_FROM_RAD, COL_SECTOR_TO_RAD);
 }
 
-struct measurement_row_columns measurement_row_columns_find(const struct table *table,
+struct measurement_columns measurement_columns_find(const struct table *table,
                                                             const struct parameters *parameters,
                                                             enum record_kind kind,
                                                             bool needs_sensor)
 {
-    struct measurement_row_columns columns = {.in_file = columns_find(table),
+    struct measurement_columns columns = {.in_file = columns_find(table),
                                               .is_bearings = kind == RECORD_BEARINGS};
 
     if (columns.is_bearings) {
         check_bearing_columns(&columns.in_file);
     } else {
         check_plot_columns(&columns.in_file, needs_sensor && parameters->num_sensors > 0);
-        columns.geodetic = geodetic_columns_open(table, parameters);
+        columns.geodetic = geodetic_open(table, parameters);
     }
     return columns;
 }
 
-void measurement_row_columns_free(struct measurement_row_columns *columns)
+void measurement_columns_free(struct measurement_columns *columns)
 {
-    geodetic_columns_close(columns->geodetic);
+    geodetic_close(columns->geodetic);
     columns->geodetic = NULL;
 }
 
@@ -202,7 +202,7 @@ static bool read_geodetic_place(const struct row_reading *reading, struct rho_pl
 {
     double place_m[3];
 
-    if (!geodetic_columns_read_place(reading->columns->geodetic, &reading->cells, place_m, has_z)) {
+    if (!geodetic_read_place(reading->columns->geodetic, &reading->cells, place_m, has_z)) {
         return false;
     }
     plot->x_m = (float)place_m[0];
@@ -214,7 +214,7 @@ static bool read_geodetic_place(const struct row_reading *reading, struct rho_pl
 static bool read_place(const struct row_reading *reading, struct rho_plot *plot, bool *has_z)
 {
 
-    if (geodetic_columns_has_place_columns(reading->columns->geodetic)) {
+    if (geodetic_has_places(reading->columns->geodetic)) {
         return read_geodetic_place(reading, plot, has_z);
     }
     *has_z = row_has_cell(&reading->cells, COL_Z_M);
@@ -306,7 +306,7 @@ static bool convert_to_local_frame(const struct row_reading *reading,
                                    const struct measurement_row *row, uint32_t *measures,
                                    struct rho_polar_plot *polar)
 {
-    struct geodetic_columns_polar seen = {
+    struct geodetic_polar seen = {
         .sensor_id = row->sensor_id,
         .frame = row->frame,
         .place_m = {(double)row->sensor.x_m, (double)row->sensor.y_m, (double)row->sensor.z_m},
@@ -315,7 +315,7 @@ static bool convert_to_local_frame(const struct row_reading *reading,
         .sigma_range_m = (double)polar->sigma_range_m,
         .sigma_elevation_rad = (double)polar->sigma_elevation_rad};
 
-    if (!geodetic_columns_turn_polar_to_local_frame(reading->columns->geodetic, &reading->cells,
+    if (!geodetic_turn_polar(reading->columns->geodetic, &reading->cells,
                                                     &seen)) {
         return false;
     }
@@ -356,7 +356,7 @@ static bool read_polar_plot(const struct row_reading *reading, struct measuremen
  * Sets the sensor's position from its radar frame, and turns the row's sector, which counts from
  * the radar's own east; sectors in the parameters have been turned already.
  */
-static void set_radar_place_and_rotate_sector_to_local(struct measurement_row *row)
+static void set_radar_place(struct measurement_row *row)
 {
     const double *place_m = radar_axes_place_m(row->frame);
     float turn_rad = (float)radar_axes_turn_rad(row->frame);
@@ -379,7 +379,7 @@ static void set_radar_place_and_rotate_sector_to_local(struct measurement_row *r
 static bool set_sensor_at_position_of_row(const struct row_reading *reading,
                                           struct measurement_row *row)
 {
-    const struct measurement_row_columns *columns = reading->columns;
+    const struct measurement_columns *columns = reading->columns;
     bool has_place = row_has_cell(&reading->cells, COL_SENSOR_X_M) ||
                      row_has_cell(&reading->cells, COL_SENSOR_Y_M);
     bool has_height = row_has_cell(&reading->cells, COL_SENSOR_Z_M);
@@ -389,12 +389,12 @@ static bool set_sensor_at_position_of_row(const struct row_reading *reading,
                       columns->in_file.at[COL_SENSOR_Z_M] >= 0;
     parameters_to_sensor_or_defaults(reading->parameters, row->sensor_id, &row->sensor);
     row->bias_us = rho_measurement_time_bias_us(&row->sensor);
-    if (!geodetic_columns_find_radar_frame(columns->geodetic, &reading->cells, row->sensor_id,
+    if (!geodetic_radar_frame(columns->geodetic, &reading->cells, row->sensor_id,
                                            &row->frame)) {
         return false;
     }
     if (row->frame) {
-        set_radar_place_and_rotate_sector_to_local(row);
+        set_radar_place(row);
         return true;
     }
     return (!has_place || (row_read_position(&reading->cells, COL_SENSOR_X_M, &row->sensor.x_m) &&
@@ -467,7 +467,7 @@ static bool read_plots_row(const struct row_reading *reading, struct measurement
                                                           : read_cartesian_plot(reading, row);
 }
 
-bool measurement_row_read(const struct measurement_row_columns *columns, size_t row,
+bool measurement_row_read(const struct measurement_columns *columns, size_t row,
                           const struct parameters *parameters, struct measurement_row *record,
                           char reason[ROW_REASON_BYTES])
 {

@@ -42,28 +42,28 @@ struct measurement_row {
  * The columns of a file. A file of plots has either x_m and y_m, or range_m and an azimuth, or
  * latitude and longitude; columns that its kind does not use count as missing.
  */
-struct measurement_row_columns {
+struct measurement_columns {
     struct columns in_file;
     bool is_bearings;
     struct geodetic_columns *geodetic; /* NULL for bearings */
 };
 
 /* Whether the file holds bearings, and neither Cartesian nor polar plots. */
-bool measurement_row_table_has_bearings(const struct table *table);
+bool measurement_row_is_bearings(const struct table *table);
 
 /*
  * Finds the columns; exit 2 where a needed column is missing, or the file holds the other kind.
  * Plots need sensor_id where needs_sensor and the parameters describe a sensor, else all are of
  * sensor 0; bearings always need it. To be freed before the parameters.
  */
-struct measurement_row_columns measurement_row_columns_find(const struct table *table,
+struct measurement_columns measurement_columns_find(const struct table *table,
                                                             const struct parameters *parameters,
                                                             enum record_kind kind,
                                                             bool needs_sensor);
-void measurement_row_columns_free(struct measurement_row_columns *columns);
+void measurement_columns_free(struct measurement_columns *columns);
 
 /* Reads a row. Returns false and sets the reason where the row is bad. */
-bool measurement_row_read(const struct measurement_row_columns *columns, size_t row,
+bool measurement_row_read(const struct measurement_columns *columns, size_t row,
                           const struct parameters *parameters, struct measurement_row *record,
                           char reason[ROW_REASON_BYTES]);
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/number_and_time_parsing.h"
+#include "base/parse.h"
 
 void table_need_rows(const struct table *table)
 {

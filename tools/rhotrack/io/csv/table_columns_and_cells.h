@@ -80,7 +80,7 @@ static inline int table_find_column(const struct table *table, const char *name)
 
 /*
  * Reading cells. The functions that return a text return NULL and set the value, or return the
- * reason why the cell is bad as a constant text (number_and_time_parsing.h). table_read_float gives
+ * reason why the cell is bad as a constant text (parse.h). table_read_float gives
  * the float32 nearest to the text, as the program that wrote it had it.
  */
 bool table_is_cell_empty(const struct table *table, size_t row, int column);

@@ -15,10 +15,10 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "base/number_and_time_parsing.h"
+#include "base/parse.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
-#include "io/asterix/asterix_tracks_to_table.h"
+#include "io/asterix/asterix_track_table.h"
 #include "io/csv/columns.h"
 #include "io/csv/dialect.h"
 
@@ -96,7 +96,7 @@ static void make_content_room(struct table_stream *stream, size_t bytes)
 }
 
 /* Reads more bytes, or finds that the file ends; false where neither is possible yet. */
-static bool read_more_or_find_end_unless_waiting(struct table_stream *stream)
+static bool read_more(struct table_stream *stream)
 {
     ssize_t got;
 
@@ -122,7 +122,7 @@ static bool read_more_or_find_end_unless_waiting(struct table_stream *stream)
  * Length of the line at the current position with its line end; 0 where it is not there as a whole,
  * or there is none.
  */
-static size_t length_of_current_line_or_0_if_partial(const struct table_stream *stream)
+static size_t complete_line_length(const struct table_stream *stream)
 {
     const char *start = stream->content + stream->position, *c = start;
     const char *end = stream->content + stream->bytes;
@@ -162,7 +162,7 @@ static bool is_blank_or_comment(const char *line, size_t length)
 /*
  * Whether a name points into the file's text; others are constants (columns.h).
  */
-static bool is_name_pointing_into_table_text(const struct table_stream *stream, const char *name)
+static bool is_name_in_text(const struct table_stream *stream, const char *name)
 {
     const char *text = stream->table->text;
 
@@ -183,7 +183,7 @@ static void grow_cell_text(struct table_stream *stream, size_t bytes)
     text = must_alloc(stream->text_capacity);
     memcpy(text, table->text, stream->text_used);
     for (size_t i = 0; table->names && i < table->num_columns; i++) {
-        if (is_name_pointing_into_table_text(stream, table->names[i])) {
+        if (is_name_in_text(stream, table->names[i])) {
             table->names[i] = text + (table->names[i] - table->text);
         }
     }
@@ -222,7 +222,7 @@ static void mark_row_complete(int end, void *user)
     ((struct table_stream *)user)->row_is_complete = true;
 }
 
-static void restart_csv_parser_with_delimiter(struct table_stream *stream)
+static void restart_csv_parser(struct table_stream *stream)
 {
     if (csv_init(&stream->parser, CSV_STRICT | CSV_STRICT_FINI)) {
         fail(EXIT_RUNTIME, "out of memory");
@@ -262,7 +262,7 @@ static void fail_or_skip_row(struct table_stream *stream, const char *what)
     stream->position = stream->row_next;
     stream->line = stream->row_line + 1;
     csv_free(&stream->parser);
-    restart_csv_parser_with_delimiter(stream);
+    restart_csv_parser(stream);
 }
 
 static void process_header_row(struct table_stream *stream)
@@ -330,7 +330,7 @@ static void set_delimiter_from_header(struct table_stream *stream, const char *l
 {
     stream->delimiter = dialect_find_delimiter(line, length);
     csv_free(&stream->parser);
-    restart_csv_parser_with_delimiter(stream);
+    restart_csv_parser(stream);
 }
 
 static const char *join_blanks(struct table_stream *stream, const char *line, size_t *length)
@@ -459,13 +459,13 @@ static void skip_byte_order_mark(struct table_stream *stream, size_t *length)
  */
 static enum table_stream_found find_line(struct table_stream *stream, size_t *length)
 {
-    while ((*length = length_of_current_line_or_0_if_partial(stream)) == 0) {
+    while ((*length = complete_line_length(stream)) == 0) {
         if (stream->is_end) {
             return TABLE_STREAM_END;
         }
         refuse_too_long_row(stream);
-        if (length_of_current_line_or_0_if_partial(stream) == 0 &&
-            !read_more_or_find_end_unless_waiting(stream)) {
+        if (complete_line_length(stream) == 0 &&
+            !read_more(stream)) {
             return TABLE_STREAM_WAITS;
         }
     }
@@ -589,7 +589,7 @@ static struct table_stream *open_stream(const char *path, const struct parameter
     stream->follow = follow;
     stream->capacity = FIRST_CAPACITY;
     stream->content = must_alloc(stream->capacity);
-    restart_csv_parser_with_delimiter(stream);
+    restart_csv_parser(stream);
     stream->file = -1;
     if (!is_standard && asterix_file_is_asterix(path)) {
         open_asterix_recording(stream, path, parameters);
@@ -649,7 +649,7 @@ struct table *table_read_csv_or_asterix(const char *path, const struct parameter
 
     stream->is_whole = true;
     while (!stream->asterix && !stream->is_end) {
-        read_more_or_find_end_unless_waiting(stream);
+        read_more(stream);
     }
     return parse_whole_and_free_stream(stream);
 }
@@ -679,10 +679,10 @@ enum table_stream_found table_stream_next(struct table_stream *stream)
     return found;
 }
 
-void table_stream_suppress_asterix_end_summary(struct table_stream *stream)
+void table_stream_set_quiet(struct table_stream *stream)
 {
     if (stream->asterix) {
-        asterix_plot_rows_suppress_end_summary(stream->asterix);
+        asterix_plot_rows_set_quiet(stream->asterix);
     }
 }
 
@@ -691,7 +691,7 @@ const struct table *table_stream_table(const struct table_stream *stream)
     return stream->table;
 }
 
-const char *table_stream_why_file_cannot_be_followed(const struct table_stream *stream)
+const char *table_stream_why_not_followed(const struct table_stream *stream)
 {
     struct stat now, own;
 

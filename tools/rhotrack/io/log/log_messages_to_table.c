@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "io/asterix/asterix_file.h"
-#include "io/asterix/asterix_tracks_to_table.h"
+#include "io/asterix/asterix_track_table.h"
 #include "io/log/lcm_log.h"
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
@@ -19,7 +19,7 @@ static void collect_log_rows(struct lcm_log_reader *log, const char *path,
     while (lcm_log_next(log, &event)) {
         rows_from_messages_add_event(collection, path, &event, keep_going);
     }
-    rows_from_messages_sort_and_drop_repeats(collection);
+    rows_from_messages_sort(collection);
 }
 
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,

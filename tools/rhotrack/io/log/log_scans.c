@@ -78,7 +78,7 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
  * which would drop out-of-sequence scans, the assembler waits only for the sensors' clocks.
  * late_max_s grows by the whole wait, so that scans held for it are not dropped as too late.
  */
-static void set_assembler_hold_and_late_max(struct parameters *parameters, bool caller_holds_scans)
+static void set_assembler_hold(struct parameters *parameters, bool caller_holds_scans)
 {
     double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
     double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
@@ -94,7 +94,7 @@ static void open_log_and_assembler(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    set_assembler_hold_and_late_max(&parameters, scans->is_held);
+    set_assembler_hold(&parameters, scans->is_held);
     parameters_to_assembler(&parameters, scans->assembler);
     scans->assembler->config.is_record = 1;
     scans->order = (struct out_of_sequence_counts){0};
@@ -112,7 +112,7 @@ static void offer_event_to_assembler(struct log_scans *scans)
 {
     const struct lcm_log_event *event = &scans->event;
 
-    scans->has_event = out_of_sequence_counts_take_message(&scans->order, scans->assembler,
+    scans->has_event = out_of_sequence_counts_take(&scans->order, scans->assembler,
                                                            event->channel, event->data, event->size,
                                                            event->utime) == RHO_ERROR_CAPACITY;
 }
@@ -162,7 +162,7 @@ static int64_t item_scan_time_us(const struct rho_scan_assembler_item *item)
  * The sensors' clock was set back: two recordings in one file cannot be stepped as one. Exit 2, or
  * the scans before are left out.
  */
-static void refuse_clock_restart_or_skip_scans_before(struct log_scans *scans,
+static void refuse_clock_restart(struct log_scans *scans,
                                                       const struct rho_scan_assembler_item *item,
                                                       bool keep_going)
 {
@@ -185,7 +185,7 @@ static void refuse_clock_restart_or_skip_scans_before(struct log_scans *scans,
 /*
  * Goes through the whole log to count its scans, and to find the last time the clock was set back.
  */
-static void count_scans_and_find_last_clock_setback(struct log_scans *scans, uint64_t file_bytes,
+static void preview_scans(struct log_scans *scans, uint64_t file_bytes,
                                                     bool keep_going)
 {
     struct rho_scan_assembler_item item;
@@ -194,7 +194,7 @@ static void count_scans_and_find_last_clock_setback(struct log_scans *scans, uin
 
     while (assemble_next_scan(scans, &item)) {
         if (item.is_restart && item_scan_time_us(&item) < last_us) {
-            refuse_clock_restart_or_skip_scans_before(scans, &item, keep_going);
+            refuse_clock_restart(scans, &item, keep_going);
         }
         last_us = item_scan_time_us(&item);
         progress_show_by_bytes(&progress, scans->num_given, lcm_log_position(scans->reader),
@@ -255,7 +255,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->is_held = caller_holds_scans;
     scans->assembler = must_alloc(sizeof *scans->assembler);
     open_log_and_assembler(scans);
-    count_scans_and_find_last_clock_setback(scans, regular_file_size_or_zero(path), keep_going);
+    preview_scans(scans, regular_file_size_or_zero(path), keep_going);
     if (reports_faults) {
         const struct scan_losses losses =
             out_of_sequence_counts_to_scan_losses(&scans->order, &scans->assembler->counters);

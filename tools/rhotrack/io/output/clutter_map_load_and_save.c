@@ -48,7 +48,7 @@ struct clutter_row {
  * Refuses files of plots and tracks, which have positions and sensors too: the map would overwrite
  * them.
  */
-static void refuse_table_of_plots_or_tracks(const struct columns *columns)
+static void refuse_other_tables(const struct columns *columns)
 {
     static const enum column_id others[] = {COL_T_S, COL_RANGE_M, COL_BEARING_RAD};
 
@@ -68,9 +68,9 @@ static struct geodetic_columns *check_columns(const struct columns *columns,
     struct geodetic_columns *geodetic = NULL;
 
     (void)columns_need(columns, COL_SENSOR_ID);
-    refuse_table_of_plots_or_tracks(columns);
+    refuse_other_tables(columns);
     if (columns->at[COL_LAT_DEG] >= 0) {
-        geodetic = geodetic_columns_open(columns->table, parameters);
+        geodetic = geodetic_open(columns->table, parameters);
     }
     (void)columns_need(columns, geodetic ? COL_LAT_DEG : COL_X_M);
     (void)columns_need(columns, geodetic ? COL_LON_DEG : COL_Y_M);
@@ -101,7 +101,7 @@ static bool read_place(const struct row_check *check, struct geodetic_columns *g
         return row_read_position(check, COL_X_M, &echo->x_m) &&
                row_read_position(check, COL_Y_M, &echo->y_m);
     }
-    if (!geodetic_columns_read_place(geodetic, check, place_m, &has_alt)) {
+    if (!geodetic_read_place(geodetic, check, place_m, &has_alt)) {
         return false;
     }
     echo->x_m = (float)place_m[0];
@@ -118,7 +118,7 @@ static bool is_sigma_configured(const struct parameters *parameters, int32_t sen
 }
 
 /* Sets an echo's sigmas to the noise of its sensor's plots at that range. */
-static void set_sigmas_to_sensor_noise_at_range(const struct parameters *parameters,
+static void set_sigmas_of_sensor(const struct parameters *parameters,
                                                 struct clutter_echo *echo)
 {
     double range_m = SIGMA_BY_HAND_M, cross_m = SIGMA_BY_HAND_M;
@@ -159,7 +159,7 @@ static bool read_echo(const struct row_check *check, struct geodetic_columns *ge
         !read_place(check, geodetic, echo)) {
         return false;
     }
-    set_sigmas_to_sensor_noise_at_range(parameters, echo);
+    set_sigmas_of_sensor(parameters, echo);
     if (!read_sigma(check, COL_SIGMA_M, &echo->sigma_range_m) ||
         !read_sigma(check, COL_SIGMA_M, &echo->sigma_cross_m) ||
         !read_sigma(check, COL_SIGMA_RANGE_M, &echo->sigma_range_m) ||
@@ -171,7 +171,7 @@ static bool read_echo(const struct row_check *check, struct geodetic_columns *ge
     return true;
 }
 
-static bool read_looks_and_returns_of_echo_class(const struct row_check *check,
+static bool read_return_counts(const struct row_check *check,
                                                  struct return_counts *counts)
 {
     int32_t hits, unseen, region = ALL_REGIONS;
@@ -209,12 +209,12 @@ static struct clutter_row *read_rows(const char *path, const struct parameters *
         rows[row].is_echo = !row_has_cell(&check, COL_LOOKS);
         if (!(rows[row].is_echo
                   ? read_echo(&check, geodetic, parameters, &rows[row].echo)
-                  : read_looks_and_returns_of_echo_class(&check, &rows[row].counts))) {
+                  : read_return_counts(&check, &rows[row].counts))) {
             table_fail_at_row(table, row, "%s", reason);
         }
     }
     *count = table->num_rows;
-    geodetic_columns_close(geodetic);
+    geodetic_close(geodetic);
     table_free(table);
     return rows;
 }

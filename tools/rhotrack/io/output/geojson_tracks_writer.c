@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/identity_to_index_map.h"
+#include "base/identity_map.h"
 #include "io/csv/local_frame.h"
 
 struct point {
@@ -306,7 +306,7 @@ void geojson_add_row(struct geojson *geojson, const struct geojson_row *row)
     track->seen_at = geojson->times;
 }
 
-void geojson_end_time_and_write_ended_tracks(struct geojson *geojson)
+void geojson_end_time(struct geojson *geojson)
 {
     for (size_t i = geojson->first; i < geojson->ids.count; i++) {
         struct track *track = geojson->tracks[i];
@@ -323,7 +323,7 @@ void geojson_end_time_and_write_ended_tracks(struct geojson *geojson)
     geojson->times++;
 }
 
-void geojson_write_open_tracks_and_free(struct geojson *geojson)
+void geojson_end_and_free(struct geojson *geojson)
 {
     for (size_t i = geojson->first; i < geojson->ids.count; i++) {
         struct track *track = geojson->tracks[i];

@@ -59,7 +59,7 @@ static const char *why_plot_cells_incomplete(const double *cells)
     return NULL;
 }
 
-static int plot_scan_kind_by_height_and_velocity(const double *cells)
+static int plot_scan_kind(const double *cells)
 {
     bool has_height = !rows_is_cell_empty(cells[Z_M]);
 
@@ -97,7 +97,7 @@ static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffe
         .scan = part->scan->head.scan,
         .epoch = part->scan->head.epoch,
         .sensor_id = (int16_t)part->scan->head.sensor_id,
-        .kind = (int8_t)plot_scan_kind_by_height_and_velocity(part->count ? rows_part_cells(part, 0)
+        .kind = (int8_t)plot_scan_kind(part->count ? rows_part_cells(part, 0)
                                                                           : head),
         .part = part->part,
         .num_parts = part->scan->num_parts,
@@ -178,7 +178,7 @@ const struct rows_kind rows_kind_plots = {
     .columns = columns,
     .num_columns = NUM_COLUMNS,
     .why_not = why_plot_cells_incomplete,
-    .pattern = plot_scan_kind_by_height_and_velocity,
+    .pattern = plot_scan_kind,
     .part_max = RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS,
     .encode = encode_plot_scan_part,
     .decode = decode_plot_scan_to_rows,

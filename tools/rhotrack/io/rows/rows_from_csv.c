@@ -10,14 +10,14 @@
 #include "base/common.h"
 #include "io/csv/row_cells.h"
 #include "io/rows/rows_geodetic.h"
-#include "io/scans/hash_table_of_scans_by_number.h"
+#include "io/scans/scan_numbers.h"
 
 /* State of reading a table. */
 struct reading {
     struct rows_file *file;
     struct columns columns; /* those that the file's kind does not use count as missing */
     const struct parameters *parameters;
-    struct rows_geodetic_columns geodetic;
+    struct rows_geodetic geodetic;
     struct scan_numbers numbers; /* numbered scans, by the indices of their first rows */
     bool has_last;
     int64_t last_us; /* latest time of a row, or of its reception where that is given */
@@ -58,13 +58,13 @@ static void check_columns(struct reading *reading)
     reading->file->rows.has_received = columns->at[COL_RECEIVED_S] >= 0;
     reading->file->has_scan = columns->at[COL_SCAN] >= 0;
     reading->file->has_epoch = columns->at[COL_EPOCH] >= 0;
-    reading->geodetic = rows_geodetic_columns_open(columns->table, kind, reading->parameters);
+    reading->geodetic = rows_geodetic_open(columns->table, kind, reading->parameters);
     for (int i = 0; i < kind->num_columns; i++) {
         const struct rows_column *column = &kind->columns[i];
 
         columns_refuse_two_units(columns, column->id);
         if ((column->flags & COLUMN_NEEDED) &&
-            !rows_geodetic_columns_replaces_column(&reading->geodetic, column)) {
+            !rows_geodetic_replaces(&reading->geodetic, column)) {
             (void)columns_need(columns, column->id);
         }
     }
@@ -166,7 +166,7 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
                 return false;
             }
         } else if ((kind->columns[i].flags & COLUMN_FILLED) &&
-                   !rows_geodetic_columns_replaces_column(&reading->geodetic, &kind->columns[i])) {
+                   !rows_geodetic_replaces(&reading->geodetic, &kind->columns[i])) {
             return row_refuse(check, "%s is empty", column_name(kind->columns[i].id));
         }
     }
@@ -190,7 +190,7 @@ static void fill_missing_radar_place(const struct reading *reading, int32_t sens
     }
 }
 
-static bool read_time_sensor_and_scan_numbers(const struct reading *reading,
+static bool read_row_head(const struct reading *reading,
                                               const struct row_check *check, struct row *row)
 {
     const int *at = reading->columns.at;
@@ -291,7 +291,7 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
         return false;
     }
     fill_missing_radar_place(reading, row->sensor_id, cells);
-    if (!rows_geodetic_columns_fill_local_cells(&reading->geodetic, check, row->sensor_id, cells)) {
+    if (!rows_geodetic_fill_cells(&reading->geodetic, check, row->sensor_id, cells)) {
         return false;
     }
     if (rows->kind->why_not && rows_row_has_measurement(rows, &rows->list[rows->count - 1])) {
@@ -306,7 +306,7 @@ static bool add_row_or_refuse_with_reason(struct reading *reading, const struct 
     struct rows *rows = &reading->file->rows;
     struct row row = {.line = check->columns->table->lines[check->row], .order = check->row};
 
-    if (!read_time_sensor_and_scan_numbers(reading, check, &row)) {
+    if (!read_row_head(reading, check, &row)) {
         return false;
     }
     if (!read_and_check_row(reading, check, &row, rows_add_row(rows, &row))) {
@@ -344,7 +344,7 @@ bool rows_read_table_and_has_any(struct rows_file *file, const char *path,
     rows_init(&file->rows, kind_of_columns(&reading.columns));
     check_columns(&reading);
     read_rows(&reading);
-    rows_geodetic_columns_close(&reading.geodetic);
+    rows_geodetic_close(&reading.geodetic);
     scan_numbers_clear(&reading.numbers);
     return reading.has_last;
 }

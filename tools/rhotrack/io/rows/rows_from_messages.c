@@ -103,7 +103,7 @@ void rows_from_messages_add_event(struct rows_collection *collection, const char
 
 /* ---- Messages that belong together ---- */
 
-static int compare_sensor_epoch_scan_and_time(const struct rows_message *one,
+static int compare_scans(const struct rows_message *one,
                                               const struct rows_message *other)
 {
     int order = rows_compare_int64(one->key.sensor_id, other->key.sensor_id);
@@ -116,7 +116,7 @@ static int compare_sensor_epoch_scan_and_time(const struct rows_message *one,
 static int by_scan_part_and_arrival(const void *a, const void *b)
 {
     const struct rows_message *one = a, *other = b;
-    int order = compare_sensor_epoch_scan_and_time(one, other);
+    int order = compare_scans(one, other);
 
     order = order ? order : rows_compare_int64(one->part, other->part);
     return order ? order : rows_compare_int64((int64_t)one->arrival, (int64_t)other->arrival);
@@ -153,7 +153,7 @@ static uint64_t lowest_arrival_index(const struct rows_message *messages, size_t
  * Adds the row of a scan itself, which has no measurement, unless an element of the scan, added
  * from index `before` on, has the scan's time. Counts a list without elements.
  */
-static void append_scan_row_if_time_missing(struct ordering *ordering,
+static void append_scan_row(struct ordering *ordering,
                                             const struct rows_message *message, size_t before,
                                             uint64_t order)
 {
@@ -195,7 +195,7 @@ static void append_rows_of_one_scan(struct ordering *ordering, const struct rows
         }
     }
     ordering->collection->scans_incomplete += parts < (size_t)messages[0].num_parts;
-    append_scan_row_if_time_missing(ordering, &messages[0], before, order);
+    append_scan_row(ordering, &messages[0], before, order);
 }
 
 static int by_time(const void *a, const void *b)
@@ -214,7 +214,7 @@ static int by_reception(const void *a, const void *b)
     return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
-void rows_from_messages_sort_and_drop_repeats(struct rows_collection *collection)
+void rows_from_messages_sort(struct rows_collection *collection)
 {
     struct ordering ordering = {.collection = collection};
     size_t end;
@@ -230,7 +230,7 @@ void rows_from_messages_sort_and_drop_repeats(struct rows_collection *collection
 
         end = first + 1;
         while (end < collection->count &&
-               compare_sensor_epoch_scan_and_time(messages, collection->messages + end) == 0) {
+               compare_scans(messages, collection->messages + end) == 0) {
             end++;
         }
         append_rows_of_one_scan(&ordering, messages, end - first);

@@ -5,38 +5,38 @@
 
 #define TURN 6.283185307179586
 
-struct rows_geodetic_columns rows_geodetic_columns_open(const struct table *table,
+struct rows_geodetic rows_geodetic_open(const struct table *table,
                                                         const struct rows_kind *kind,
                                                         const struct parameters *parameters)
 {
     bool has_any = kind == &rows_kind_plots || kind == &rows_kind_polar || kind == &rows_kind_truth;
 
-    return (struct rows_geodetic_columns){
+    return (struct rows_geodetic){
         .kind = kind,
         .parameters = parameters,
-        .geodetic = has_any ? geodetic_columns_open(table, parameters) : NULL};
+        .geodetic = has_any ? geodetic_open(table, parameters) : NULL};
 }
 
-void rows_geodetic_columns_close(struct rows_geodetic_columns *geodetic)
+void rows_geodetic_close(struct rows_geodetic *geodetic)
 {
-    geodetic_columns_close(geodetic->geodetic);
+    geodetic_close(geodetic->geodetic);
     geodetic->geodetic = NULL;
 }
 
-bool rows_geodetic_columns_replaces_column(const struct rows_geodetic_columns *geodetic,
+bool rows_geodetic_replaces(const struct rows_geodetic *geodetic,
                                            const struct rows_column *column)
 {
-    return geodetic_columns_has_place_columns(geodetic->geodetic) &&
+    return geodetic_has_places(geodetic->geodetic) &&
            (column->id == COL_X_M || column->id == COL_Y_M);
 }
 
-static double *cell_of(const struct rows_geodetic_columns *geodetic, double *cells,
+static double *cell_of(const struct rows_geodetic *geodetic, double *cells,
                        enum column_id column)
 {
     return &cells[rows_column_index(geodetic->kind, column)];
 }
 
-static void put_float_cell(const struct rows_geodetic_columns *geodetic, double *cells,
+static void put_float_cell(const struct rows_geodetic *geodetic, double *cells,
                            enum column_id column, double value)
 {
     *cell_of(geodetic, cells, column) = (double)(float)value;
@@ -47,7 +47,7 @@ static double cell_or(double cell, double otherwise)
     return rows_is_cell_empty(cell) ? otherwise : cell;
 }
 
-static bool fill_place_cells(const struct rows_geodetic_columns *geodetic,
+static bool fill_place_cells(const struct rows_geodetic *geodetic,
                              const struct row_check *check, double *cells)
 {
     double place_m[3];
@@ -57,7 +57,7 @@ static bool fill_place_cells(const struct rows_geodetic_columns *geodetic,
         !row_has_cell(check, COL_LON_DEG) && !row_has_cell(check, COL_ALT_M)) {
         return true; /* a scan without detections */
     }
-    if (!geodetic_columns_read_place(geodetic->geodetic, check, place_m, &has_alt)) {
+    if (!geodetic_read_place(geodetic->geodetic, check, place_m, &has_alt)) {
         return false;
     }
     put_float_cell(geodetic, cells, COL_X_M, place_m[0]);
@@ -79,7 +79,7 @@ static void rotate_angle_cell(double *cell, double turn_rad)
  * Sets the radar's position, and turns the sector, which counts from the radar's own east, to the
  * local frame.
  */
-static void put_radar_place_and_sector(const struct rows_geodetic_columns *geodetic,
+static void put_radar_place_and_sector(const struct rows_geodetic *geodetic,
                                        const struct radar_axes *frame, double *cells)
 {
     const double *place_m = radar_axes_place_m(frame);
@@ -93,7 +93,7 @@ static void put_radar_place_and_sector(const struct rows_geodetic_columns *geode
     }
 }
 
-static struct geodetic_columns_polar read_polar_cells(const struct rows_geodetic_columns *geodetic,
+static struct geodetic_polar read_polar_cells(const struct rows_geodetic *geodetic,
                                                       int32_t sensor_id, double *cells)
 {
     const struct parameters *parameters = geodetic->parameters;
@@ -101,7 +101,7 @@ static struct geodetic_columns_polar read_polar_cells(const struct rows_geodetic
                                                       parameters->value[PARAMETER_SIGMA_RANGE_M]);
     double elevation_rad = *cell_of(geodetic, cells, COL_ELEVATION_RAD);
 
-    return (struct geodetic_columns_polar){
+    return (struct geodetic_polar){
         .sensor_id = sensor_id,
         .place_m = {cell_or(*cell_of(geodetic, cells, COL_SENSOR_X_M), 0),
                     cell_or(*cell_of(geodetic, cells, COL_SENSOR_Y_M), 0),
@@ -116,7 +116,7 @@ static struct geodetic_columns_polar read_polar_cells(const struct rows_geodetic
  * Whether range and angles are in range for the conversion to the local frame. Empty cells, and
  * cells out of range, are refused later, as in any file.
  */
-static bool are_range_and_angles_in_limits(const struct geodetic_columns_polar *polar)
+static bool are_range_and_angles_in_limits(const struct geodetic_polar *polar)
 {
     const double half_turn = (double)3.1415927f; /* the float nearest to pi, as files may have it */
 
@@ -124,18 +124,18 @@ static bool are_range_and_angles_in_limits(const struct geodetic_columns_polar *
            fabs(polar->look.elevation_rad) <= half_turn / 2;
 }
 
-static bool rotate_azimuth_and_elevation_to_local_frame(
-    const struct rows_geodetic_columns *geodetic, const struct row_check *check,
+static bool turn_polar_cells(
+    const struct rows_geodetic *geodetic, const struct row_check *check,
     const struct radar_axes *frame, int32_t sensor_id, double *cells)
 {
-    struct geodetic_columns_polar polar = read_polar_cells(geodetic, sensor_id, cells);
+    struct geodetic_polar polar = read_polar_cells(geodetic, sensor_id, cells);
     bool had_elevation = polar.has_elevation;
 
     polar.frame = frame;
     if (!are_range_and_angles_in_limits(&polar)) {
         return true;
     }
-    if (!geodetic_columns_turn_polar_to_local_frame(geodetic->geodetic, check, &polar)) {
+    if (!geodetic_turn_polar(geodetic->geodetic, check, &polar)) {
         return false;
     }
     put_float_cell(geodetic, cells, COL_AZIMUTH_RAD, polar.look.azimuth_rad);
@@ -148,7 +148,7 @@ static bool rotate_azimuth_and_elevation_to_local_frame(
     return true;
 }
 
-bool rows_geodetic_columns_fill_local_cells(const struct rows_geodetic_columns *geodetic,
+bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic,
                                             const struct row_check *check, int32_t sensor_id,
                                             double *cells)
 {
@@ -158,15 +158,15 @@ bool rows_geodetic_columns_fill_local_cells(const struct rows_geodetic_columns *
         return true;
     }
     if (geodetic->kind->has_sensor &&
-        !geodetic_columns_find_radar_frame(geodetic->geodetic, check, sensor_id, &frame)) {
+        !geodetic_radar_frame(geodetic->geodetic, check, sensor_id, &frame)) {
         return false;
     }
     if (frame) {
         put_radar_place_and_sector(geodetic, frame, cells);
     }
     return geodetic->kind == &rows_kind_polar
-               ? rotate_azimuth_and_elevation_to_local_frame(geodetic, check, frame, sensor_id,
+               ? turn_polar_cells(geodetic, check, frame, sensor_id,
                                                              cells)
-               : !geodetic_columns_has_place_columns(geodetic->geodetic) ||
+               : !geodetic_has_places(geodetic->geodetic) ||
                      fill_place_cells(geodetic, check, cells);
 }

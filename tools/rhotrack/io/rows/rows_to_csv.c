@@ -7,7 +7,7 @@
 #include "base/common.h"
 #include "io/csv/tracks_writer.h"
 
-static bool is_cell_neither_empty_nor_omitted_zero(const struct rows_column *column, double cell)
+static bool is_cell_written(const struct rows_column *column, double cell)
 {
     if (rows_is_cell_empty(cell)) {
         return false;
@@ -23,7 +23,7 @@ static bool is_column_wanted(const struct rows *rows, int index, bool with_covar
         return (column->flags & COLUMN_ALWAYS) || with_covariance;
     }
     for (size_t i = 0; i < rows->count; i++) {
-        if (is_cell_neither_empty_nor_omitted_zero(column,
+        if (is_cell_written(column,
                                                    rows_cells(rows, &rows->list[i])[index])) {
             return true;
         }

@@ -49,7 +49,7 @@ struct named_row {
     size_t row;
 };
 
-static int by_time_track_or_target_and_row(const void *a, const void *b)
+static int by_time_name_and_row(const void *a, const void *b)
 {
     const struct named_row *one = a, *other = b;
     int order = rows_compare_int64(one->time_us, other->time_us);
@@ -62,7 +62,7 @@ static int by_time_track_or_target_and_row(const void *a, const void *b)
  * For each row, finds the row before with the same track or target at the same time; SIZE_MAX where
  * there is none.
  */
-static void find_earlier_rows_of_same_id_and_time(struct scan_grouping *grouping)
+static void find_repeated_ids(struct scan_grouping *grouping)
 {
     size_t count = grouping->file->rows.count;
     struct named_row *named = must_alloc(count * sizeof *named);
@@ -72,7 +72,7 @@ static void find_earlier_rows_of_same_id_and_time(struct scan_grouping *grouping
         named[i] = (struct named_row){grouping->rows[i].time_us,
                                       rows_cells(&grouping->file->rows, &grouping->rows[i])[0], i};
     }
-    qsort(named, count, sizeof *named, by_time_track_or_target_and_row);
+    qsort(named, count, sizeof *named, by_time_name_and_row);
     for (size_t i = 0; i < count; i++) {
         bool is_again = i > 0 && named[i].time_us == named[i - 1].time_us &&
                         !(named[i].name > named[i - 1].name);
@@ -187,7 +187,7 @@ static bool check_received_fits_scan(struct scan_grouping *grouping, const struc
     const struct row_check check = {.reason = reason};
 
     if (grouping->file->rows.has_received &&
-        !row_check_received_same_as_in_scan(&check, row->received_us, scan->head.received_us,
+        !row_check_received(&check, row->received_us, scan->head.received_us,
                                             grouping->file->has_scan, grouping->interval_us)) {
         rows_refuse_row(grouping->file, row, "%s", reason);
         return false;
@@ -222,7 +222,7 @@ static bool check_row_fits_scan(struct scan_grouping *grouping, const struct row
  * Time of a scan: with numbers that of its row without a measurement, which may stand anywhere,
  * else of its first row.
  */
-static int64_t time_of_empty_row_or_first_row_us(const struct scan_grouping *grouping, size_t first,
+static int64_t scan_time_us(const struct scan_grouping *grouping, size_t first,
                                                  size_t end)
 {
     for (size_t i = first; grouping->file->has_scan && i < end; i++) {
@@ -265,7 +265,7 @@ static size_t count_parts(const struct scan_grouping *grouping, const struct row
 static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_t end)
 {
     struct rows_to_messages *scans = grouping->scans;
-    struct rows_scan scan = {.utime = time_of_empty_row_or_first_row_us(grouping, first, end),
+    struct rows_scan scan = {.utime = scan_time_us(grouping, first, end),
                              .head = grouping->rows[first],
                              .first = first,
                              .order = grouping->rows[first].order};
@@ -348,7 +348,7 @@ void rows_to_messages_group_into_scans(struct rows_to_messages *scans, struct ro
     qsort(file->rows.list, file->rows.count, sizeof *file->rows.list,
           grouping.kind->has_sensor ? by_scan_and_order : by_epoch_scan_time_and_order);
     if (!grouping.kind->has_sensor && !file->has_scan) {
-        find_earlier_rows_of_same_id_and_time(&grouping);
+        find_repeated_ids(&grouping);
     }
     for (size_t first = 0, end; first < file->rows.count; first = end) {
         for (end = first + 1; end < file->rows.count && joins_scan(&grouping, first, end); end++) {

@@ -42,7 +42,7 @@ static bool may_have_turns(const struct rows_file *file, const struct parameters
                &file->rows, file->rows.list)[rows_column_index(kind, COL_SECTOR_FROM_RAD)]);
 }
 
-void rows_turns_find_and_set_turn_numbers(struct rows_file *file,
+void rows_number_turns(struct rows_file *file,
                                           const struct parameters *parameters)
 {
     struct antenna_turns *turns;
@@ -57,10 +57,10 @@ void rows_turns_find_and_set_turn_numbers(struct rows_file *file,
         const struct row *row = &file->rows.list[i];
 
         goes_on = !plot_place_relative_to_sensor(file, row, parameters, place_m) ||
-                  antenna_turns_add_row_and_wants_more(turns, row->sensor_id, row->time_us,
+                  antenna_turns_add_row(turns, row->sensor_id, row->time_us,
                                                        place_m[0], place_m[1]);
     }
-    if (antenna_turns_find_rules_report_and_have_any(turns, file->path,
+    if (antenna_turns_find_rules(turns, file->path,
                                                      parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {
             struct row *row = &file->rows.list[i];

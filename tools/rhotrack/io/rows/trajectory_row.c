@@ -16,12 +16,12 @@ struct trajectory_columns trajectory_columns_find(const struct table *table,
     struct trajectory_columns columns = {.in_file = columns_find(table)};
 
     if (id_column(&columns) == COL_TARGET_ID) {
-        columns.geodetic = geodetic_columns_open(table, parameters);
+        columns.geodetic = geodetic_open(table, parameters);
     }
     (void)columns_need(&columns.in_file, COL_T_S);
     (void)columns_need(&columns.in_file, id_column(&columns));
     columns.has_z = columns.in_file.at[COL_ALT_M] >= 0;
-    if (!geodetic_columns_has_place_columns(columns.geodetic)) {
+    if (!geodetic_has_places(columns.geodetic)) {
         (void)columns_need(&columns.in_file, COL_X_M);
         (void)columns_need(&columns.in_file, COL_Y_M);
         columns.has_z = columns.in_file.at[COL_Z_M] >= 0;
@@ -31,7 +31,7 @@ struct trajectory_columns trajectory_columns_find(const struct table *table,
 
 void trajectory_columns_free(struct trajectory_columns *columns)
 {
-    geodetic_columns_close(columns->geodetic);
+    geodetic_close(columns->geodetic);
     columns->geodetic = NULL;
 }
 
@@ -39,7 +39,7 @@ bool trajectory_row_has_place(const struct trajectory_columns *columns, size_t r
 {
     const struct row_check check = {.columns = &columns->in_file, .row = row};
 
-    return row_has_cell(&check, geodetic_columns_has_place_columns(columns->geodetic) ? COL_LAT_DEG
+    return row_has_cell(&check, geodetic_has_places(columns->geodetic) ? COL_LAT_DEG
                                                                                       : COL_X_M);
 }
 
@@ -58,13 +58,13 @@ static void read_place(const struct trajectory_columns *columns, size_t row,
     double place_m[3];
     bool has_alt;
 
-    if (!geodetic_columns_has_place_columns(columns->geodetic)) {
+    if (!geodetic_has_places(columns->geodetic)) {
         path->x_m = table_number_at(in_file->table, row, in_file->at[COL_X_M]);
         path->y_m = table_number_at(in_file->table, row, in_file->at[COL_Y_M]);
         path->z_m = number_or(in_file, row, COL_Z_M, 0.0);
         return;
     }
-    if (!geodetic_columns_read_place(columns->geodetic, &check, place_m, &has_alt)) {
+    if (!geodetic_read_place(columns->geodetic, &check, place_m, &has_alt)) {
         table_fail_at_row(in_file->table, row, "%s", reason);
     }
     path->x_m = place_m[0];
