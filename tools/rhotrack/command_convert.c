@@ -13,13 +13,13 @@
 #include "commands_and_parsed_line.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
-#include "io/asterix/asterix_track_writer.h"
 #include "io/asterix/asterix_track_table.h"
+#include "io/asterix/asterix_track_writer.h"
 #include "io/csv/table_columns_and_cells.h"
-#include "io/log/message_source.h"
 #include "io/log/lcm_log.h"
-#include "io/output/geojson_tracks_writer.h"
+#include "io/log/message_source.h"
 #include "io/output/geojson_rows.h"
+#include "io/output/geojson_tracks_writer.h"
 #include "io/rows/rows_from_csv.h"
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
@@ -352,8 +352,8 @@ void convert_refuse_radar(const struct command_line *line)
     const char *input = line->arguments[0], *output = line->arguments[1];
     bool to_map = geojson_path_is_geojson(output);
 
-    if ((to_map || asterix_track_writer_is_path(output)) &&
-        asterix_file_is_asterix(input) && !asterix_file_has_only_tracks(input)) {
+    if ((to_map || asterix_track_writer_is_path(output)) && asterix_file_is_asterix(input) &&
+        !asterix_file_has_only_tracks(input)) {
         check_input_is_table(input);
         fail(EXIT_USAGE, "%s: a recording of radar plots, not of tracks; %s is made of tracks",
              input, to_map ? "GeoJSON" : "CAT062");

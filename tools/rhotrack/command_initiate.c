@@ -62,8 +62,8 @@ static void push_last_scans(struct initiation_run *batch, struct plot_scan_reade
     revolutions_free(&revolutions);
 }
 
-static void search_batch_by_kernel(struct initiation_run *batch,
-                                            const struct command_line *line)
+/* Reads the batch, and searches it by kernel. */
+static void search_batch_by_kernel(struct initiation_run *batch, const struct command_line *line)
 {
     struct rho_initiator_config config;
     struct plot_scan_reader *reader;

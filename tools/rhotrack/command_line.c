@@ -284,6 +284,7 @@ static const char *option_name_of_letter(int letter)
     return NULL;
 }
 
+/* Exit 2, with the option that may be meant. */
 static _Noreturn void refuse_unknown_option(const struct command *command, char **argv)
 {
     const char *typed = argv[optind - 1], *hint;
@@ -353,8 +354,8 @@ static void set_default_origin_if_lacking(struct command_line *line, const char 
     }
 }
 
-static void set_csv_origin(struct command_line *line,
-                                                          const char *path)
+/* Takes the origin from the first rows, and warns of azimuths that count clockwise. */
+static void set_csv_origin(struct command_line *line, const char *path)
 {
     const struct origin_and_azimuth_sense look = guess_origin_from_rows(path);
 
@@ -372,8 +373,7 @@ static void set_csv_origin(struct command_line *line,
 /*
  * Selects the arguments that may hold plots, from which an origin can be taken: none of evaluate.
  */
-static void note_plot_arguments(struct command_line *line,
-                                                const struct command *command)
+static void note_plot_arguments(struct command_line *line, const struct command *command)
 {
     /* the first argument of plot is the kind of picture */
     const int skipped = strcmp(command->name, "plot") == 0;

@@ -12,10 +12,10 @@
 #include "picture/interactive_map_page.h"
 #include "picture/picture_data.h"
 #include "picture/plot_bearings.h"
+#include "picture/plot_by_time.h"
 #include "picture/plot_clutter_map.h"
 #include "picture/plot_errors.h"
 #include "picture/plot_parameter_space.h"
-#include "picture/plot_by_time.h"
 #include "picture/plot_votes.h"
 
 static void require_points(const struct plot_points *points, const char *kind, const char *what)
@@ -88,9 +88,9 @@ static void compute_votes_of_method(struct drawn_results *results, const struct 
     results->votes = plot_votes_compute_pictures(method, &results->revolutions, &line->parameters);
 }
 
-static struct drawn_results compute_drawing(const char *kind,
-                                                            const struct picture_data *data,
-                                                            struct command_line *line)
+/* Computes the errors or the votes that the picture shows. */
+static struct drawn_results compute_drawing(const char *kind, const struct picture_data *data,
+                                            struct command_line *line)
 {
     const struct parameters *parameters = &line->parameters;
     struct drawn_results results = {.revolutions = {.count = 0}};

@@ -10,9 +10,9 @@
 #include "base/common.h"
 #include "commands_and_parsed_line.h"
 #include "io/asterix/asterix_udp_receiver.h"
-#include "io/log/message_source.h"
 #include "io/log/lcm_log.h"
 #include "io/log/message_shift_time_number_epoch.h"
+#include "io/log/message_source.h"
 #include "io/scans/scan_interval_hint_for_single_plot_scans.h"
 #include "live/publish_stop_signals_epoch_and_send.h"
 #include "rhotrack/udpm.h"
@@ -50,6 +50,7 @@ struct player {
 
 /* ---- Time ---- */
 
+/* Whether the time of the playback is over, or a signal has come. */
 static bool is_playback_stopped(const struct player *player)
 {
     return player->is_over || publish_is_stopped();
@@ -194,7 +195,7 @@ static void send_event(struct player *player, const struct message_event *event)
 static struct message_source *open_input_files_as_messages(const struct command_line *line)
 {
     return message_source_open(line->arguments, line->num_arguments, &line->parameters,
-                                           line->keep_going);
+                               line->keep_going);
 }
 
 /* Sends all messages of the source once at their times, and closes the source. */

@@ -5,8 +5,8 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 #include "commands_and_parsed_line.h"
-#include "scene/scene.h"
 #include "next_command.h"
+#include "scene/scene.h"
 
 static void simulate_runs(const struct command_line *line, const struct scene *scene)
 {

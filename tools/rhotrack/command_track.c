@@ -19,12 +19,12 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/merge_plots_and_bearings.h"
 #include "io/scans/plot_scan_reader.h"
+#include "next_command.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/pipeline_show_ghosts_votes_hypotheses.h"
 #include "settings/initiation_method_names_and_configs.h"
-#include "next_command.h"
 
 struct tracking {
     struct pipeline pipeline;
@@ -64,8 +64,7 @@ static void check_and_set_passive_sensors(struct tracking *tracking,
         struct parameters customary = *parameters;
 
         method_suggest_parameters(METHOD_PASSIVE, &customary);
-        bearing_sensors_check(sensors, count, &tracking->pipeline.passive->batch,
-                                                &customary);
+        bearing_sensors_check(sensors, count, &tracking->pipeline.passive->batch, &customary);
     }
     for (size_t i = 0; i < count; i++) {
         struct rho_sensor sensor;
@@ -192,10 +191,8 @@ static bool step_complete_scans(struct tracking *tracking, struct merged_inputs 
  * Steps scans as the file grows, until a signal, the end of a pipe, or the end of the file. Returns
  * why the file ended ("has become shorter"), or NULL.
  */
-static const char *track_growing_file(struct tracking *tracking,
-                                                          struct merged_inputs *inputs,
-                                                          struct tracks_output *tracks,
-                                                          int64_t quiet_us)
+static const char *track_growing_file(struct tracking *tracking, struct merged_inputs *inputs,
+                                      struct tracks_output *tracks, int64_t quiet_us)
 {
     const struct timespec pause = {.tv_nsec = 100000000};
     struct plot_scan_reader *reader = merged_inputs_scan_reader(inputs);
@@ -238,10 +235,8 @@ static int64_t follow_quiet_us(const struct parameters *parameters)
 }
 
 /* Tracks a growing input to its end; scans still incomplete at the end are stepped as they are. */
-static const char *follow_input(struct tracking *tracking,
-                                                        struct merged_inputs *inputs,
-                                                        struct tracks_output *tracks,
-                                                        const struct parameters *parameters)
+static const char *follow_input(struct tracking *tracking, struct merged_inputs *inputs,
+                                struct tracks_output *tracks, const struct parameters *parameters)
 {
     struct input input;
     const char *why;
@@ -251,8 +246,7 @@ static const char *follow_input(struct tracking *tracking,
     if (tracks) {
         tracks_output_flush(tracks);
     }
-    why = track_growing_file(tracking, inputs, tracks,
-                                                 follow_quiet_us(parameters));
+    why = track_growing_file(tracking, inputs, tracks, follow_quiet_us(parameters));
     plot_reader_end_reading(merged_inputs_scan_reader(inputs));
     while ((input = merged_inputs_next(inputs)).scan) {
         step_and_write_input(tracking, &input, tracks);
@@ -544,8 +538,7 @@ static void suggest_after_track(const struct command_line *line)
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
         next_command_can_read(line, truth)) {
-        next_command_print(
-            line, (const char *[]){"evaluate", truth, line->output, NULL});
+        next_command_print(line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
         next_command_print_page(line, line->arguments, line->num_arguments, line->output);
     }

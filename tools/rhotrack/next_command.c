@@ -29,8 +29,7 @@ static void print_quoted_shell_word(const char *word, bool is_first)
     fputc('\'', stderr);
 }
 
-void next_command_print(const struct command_line *line,
-                                              const char *const *words)
+void next_command_print(const struct command_line *line, const char *const *words)
 {
     if (!isatty(STDERR_FILENO)) {
         return;
@@ -46,8 +45,8 @@ void next_command_print(const struct command_line *line,
     fputc('\n', stderr);
 }
 
-void next_command_print_page(const struct command_line *line, char *const *files,
-                                       int num_files, const char *tracks)
+void next_command_print_page(const struct command_line *line, char *const *files, int num_files,
+                             const char *tracks)
 {
     const char **words = must_calloc((size_t)num_files + 6, sizeof *words);
     const int stem = (int)strlen(tracks) - (int)strlen(".csv");

@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "base/random.h"
-#include "io/log/message_source.h"
 #include "io/log/lcm_log.h"
+#include "io/log/message_source.h"
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
 #include "rhotrack/message.h"

@@ -184,8 +184,8 @@ static void frames_differ_by_the_meridian_convergence(void **state)
     (void)state;
     assert_close(local_frame_convergence_rad(common, common), 0, 1e-12);
     assert_close(local_frame_convergence_rad(south, common), 0, 1e-12);
-    assert_close(local_frame_convergence_rad(east, common),
-                 sin(50 * PI / 180) * 2 * PI / 180, 1e-4);
+    assert_close(local_frame_convergence_rad(east, common), sin(50 * PI / 180) * 2 * PI / 180,
+                 1e-4);
     local_frame_close(common);
     local_frame_close(east);
     local_frame_close(south);
@@ -260,16 +260,16 @@ static void a_height_that_the_range_cannot_reach_is_refused(void **state)
     double place_m[3] = {1, 2, 3};
 
     (void)state;
-    assert_false(local_frame_from_slant_range(
-        radar, &(struct local_frame_plot){5000, 0.3, 5400.01}, place_m));
+    assert_false(local_frame_from_slant_range(radar, &(struct local_frame_plot){5000, 0.3, 5400.01},
+                                              place_m));
     assert_false(local_frame_from_slant_range(
         radar, &(struct local_frame_plot){5000, 0.3, -4600.01}, place_m));
     assert_near(place_m, (double[3]){1, 2, 3}, 0);
-    assert_true(local_frame_from_slant_range(
-        radar, &(struct local_frame_plot){5000, 0.3, 5400}, place_m));
+    assert_true(
+        local_frame_from_slant_range(radar, &(struct local_frame_plot){5000, 0.3, 5400}, place_m));
     assert_near(place_m, (double[3]){0, 0, 5000}, 1.5);
-    assert_true(local_frame_from_slant_range(
-        radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
+    assert_true(
+        local_frame_from_slant_range(radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
     assert_close(length_m(place_m), 5000, 1e-6);
     assert_close(atan2(place_m[1], place_m[0]), 0.3, 1e-9);
     local_frame_close(radar);

@@ -41,8 +41,8 @@ static size_t find_nearest_time(struct alignment_times times, size_t from, int64
     return at;
 }
 
-size_t alignment_find_unmatched(struct alignment_times tracks,
-                                                struct alignment_times truth, int64_t most_us)
+size_t alignment_find_unmatched(struct alignment_times tracks, struct alignment_times truth,
+                                int64_t most_us)
 {
     size_t at = 0;
 
@@ -62,9 +62,8 @@ void alignment_fail_unmatched(const struct table *tracks, size_t row, int64_t mo
                       (double)most_us * 1e-3);
 }
 
-struct alignment alignment_list_rows(struct alignment_times tracks,
-                                                          struct alignment_times truth,
-                                                          int64_t most_us)
+struct alignment alignment_list_rows(struct alignment_times tracks, struct alignment_times truth,
+                                     int64_t most_us)
 {
     struct alignment alignment = {.count = 0};
     size_t capacity = 0, from = 0;

@@ -41,8 +41,8 @@ int64_t alignment_tolerance_us(const struct parameters *parameters);
  * Index of the first track time that is further than most_us from every truth time; tracks.count
  * where there is none.
  */
-size_t alignment_find_unmatched(struct alignment_times tracks,
-                                                struct alignment_times truth, int64_t most_us);
+size_t alignment_find_unmatched(struct alignment_times tracks, struct alignment_times truth,
+                                int64_t most_us);
 
 /* Ends the program with exit 2: the truth has no time within most_us of this row's time. */
 _Noreturn void alignment_fail_unmatched(const struct table *tracks, size_t row, int64_t most_us);
@@ -51,8 +51,7 @@ _Noreturn void alignment_fail_unmatched(const struct table *tracks, size_t row, 
  * Lists the track rows that are used at each truth time. A row may be used at no truth time or at
  * several.
  */
-struct alignment alignment_list_rows(struct alignment_times tracks,
-                                                          struct alignment_times truth,
-                                                          int64_t most_us);
+struct alignment alignment_list_rows(struct alignment_times tracks, struct alignment_times truth,
+                                     int64_t most_us);
 
 #endif

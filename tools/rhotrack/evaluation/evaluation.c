@@ -80,10 +80,8 @@ static struct pair_error error_of_pair(size_t target_index, enum evaluation_moti
  * Classifies the target as straight or turning by the change of its velocity since its previous
  * time, and stores its time and velocity for the next call.
  */
-static void classify_target(const struct evaluation *e,
-                                                struct target_life *life,
-                                                const struct evaluation_point *target,
-                                                int64_t time_us)
+static void classify_target(const struct evaluation *e, struct target_life *life,
+                            const struct evaluation_point *target, int64_t time_us)
 {
     double *last = life->velocity_mps, passed_s = (double)(time_us - life->last_us) * 1e-6;
     double change_mps =

@@ -25,18 +25,17 @@ static void print_targets(const struct evaluation *e, FILE *file)
         const struct evaluation_target *t = &targets[i];
         char found_s[TEXT_TABLE_NUMBER], until_s[TEXT_TABLE_NUMBER], texts[5][TEXT_TABLE_NUMBER];
         bool is_found = t->paired > 0;
-        text_table_add_row(&table, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
-                           (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
-                           text_table_number_or_dash(
-                               found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
-                           text_table_number_or_dash(
-                               until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
-                           (double)t->paired / (double)t->scans, t->switches, t->fragments,
-                           text_table_number_or_dash(texts[0], 1, t->errors.rmse_m),
-                           text_table_number_or_dash(texts[1], 1, t->errors.median_m),
-                           text_table_number_or_dash(texts[2], 1, t->errors.p95_m),
-                           text_table_number_or_dash(texts[3], 2, t->errors.rmse_mps),
-                           text_table_number_or_dash(texts[4], 2, t->errors.nees));
+        text_table_add_row(
+            &table, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
+            (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
+            text_table_number_or_dash(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
+            text_table_number_or_dash(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
+            (double)t->paired / (double)t->scans, t->switches, t->fragments,
+            text_table_number_or_dash(texts[0], 1, t->errors.rmse_m),
+            text_table_number_or_dash(texts[1], 1, t->errors.median_m),
+            text_table_number_or_dash(texts[2], 1, t->errors.p95_m),
+            text_table_number_or_dash(texts[3], 2, t->errors.rmse_mps),
+            text_table_number_or_dash(texts[4], 2, t->errors.nees));
     }
     fputc('\n', file);
     text_table_print(&table, file);
@@ -117,8 +116,7 @@ static cJSON *motions_json(const struct evaluation_result *result)
 {
     cJSON *object = cJSON_CreateObject();
     for (int i = 0; i < EVALUATION_MOTIONS; i++) {
-        struct evaluation_figures figures =
-            evaluation_motion_figures(&result->by_motion[i]);
+        struct evaluation_figures figures = evaluation_motion_figures(&result->by_motion[i]);
         cJSON_AddItemToObject(object, motion_names[i], figures_json(&figures));
     }
     return object;

@@ -58,7 +58,7 @@ static int compare_points_by_time_and_row(const void *a, const void *b)
 
 /* Reads the confirmed and coasting rows of a truth or tracks table, sorted by time. */
 static struct points read_confirmed_points(const struct table *table,
-                                                        const struct parameters *parameters)
+                                           const struct parameters *parameters)
 {
     struct trajectory_columns columns = trajectory_columns_find(table, parameters);
     struct points points = {.table = table,
@@ -121,8 +121,7 @@ static struct alignment_times view_of_point_times(const struct points *points)
  * alignment.h). Exits with an error where a track time is further than most_us from
  * every truth time.
  */
-static void extrapolate_tracks(struct points *tracks, const struct points *truth,
-                                              int64_t most_us)
+static void extrapolate_tracks(struct points *tracks, const struct points *truth, int64_t most_us)
 {
     struct alignment_times track_times = view_of_point_times(tracks),
                            truth_times = view_of_point_times(truth);
@@ -130,8 +129,7 @@ static void extrapolate_tracks(struct points *tracks, const struct points *truth
     if (unmatched < tracks->count) {
         alignment_fail_unmatched(tracks->table, tracks->list[unmatched].row, most_us);
     }
-    struct alignment alignment =
-        alignment_list_rows(track_times, truth_times, most_us);
+    struct alignment alignment = alignment_list_rows(track_times, truth_times, most_us);
     struct points aligned = *tracks;
     aligned.list = must_calloc(alignment.count + 1, sizeof *aligned.list);
     aligned.count = alignment.count;

@@ -63,9 +63,8 @@ static void pair_within_cluster(struct comparison *c, const struct gospa_cluster
     size_t *column_of = must_calloc(rows, sizeof *column_of);
     hungarian_assign(rows, columns, cost, column_of);
     for (size_t row = 0; row < rows; row++) {
-        record_assigned_pair(
-            c, cluster->targets[rows_are_targets ? row : column_of[row]],
-            cluster->tracks[rows_are_targets ? column_of[row] : row]);
+        record_assigned_pair(c, cluster->targets[rows_are_targets ? row : column_of[row]],
+                             cluster->tracks[rows_are_targets ? column_of[row] : row]);
     }
     free(cost);
     free(column_of);

@@ -15,8 +15,7 @@
 #define LONG_TIME_US 1000000000000
 
 /* Time that is drawn as 0: the first time where times are long (LONG_TIME_US), else time 0. */
-static int64_t time_axis_origin_us(const struct evaluation_scan *scans,
-                                                      size_t count)
+static int64_t time_axis_origin_us(const struct evaluation_scan *scans, size_t count)
 {
     return count > 0 && llabs(scans[count - 1].time_us) >= LONG_TIME_US ? scans[0].time_us : 0;
 }
@@ -30,11 +29,11 @@ static void put_values_over_time(FILE *script, const struct evaluation_scan *sca
     fprintf(script, "$scans << EOD\n");
     for (size_t i = 0; i < count; i++) {
         const struct evaluation_scan *scan = &scans[i];
-        fprintf(
-            script, "%.6f %.6g %.6g %.6g %.6g %zu %zu %zu %zu\n",
-            (double)(scan->time_us - time_axis_origin_us(scans, count)) * 1e-6,
-            scan->gospa_m, sqrt(scan->missed_m2), sqrt(scan->false_m2), sqrt(scan->localisation_m2),
-            scan->targets, scan->tracks, scan->targets - scan->pairs, scan->tracks - scan->pairs);
+        fprintf(script, "%.6f %.6g %.6g %.6g %.6g %zu %zu %zu %zu\n",
+                (double)(scan->time_us - time_axis_origin_us(scans, count)) * 1e-6, scan->gospa_m,
+                sqrt(scan->missed_m2), sqrt(scan->false_m2), sqrt(scan->localisation_m2),
+                scan->targets, scan->tracks, scan->targets - scan->pairs,
+                scan->tracks - scan->pairs);
     }
     fprintf(script, "EOD\n");
 }

@@ -8,8 +8,8 @@
 
 #include "base/common.h"
 #include "io/output/initiated_output.h"
-#include "io/scans/plot_scan_reader.h"
 #include "io/scans/hough_batch.h"
+#include "io/scans/plot_scan_reader.h"
 #include "io/turns/merged_sectors.h"
 #include "pipeline/pipeline.h"
 
@@ -25,8 +25,7 @@ struct hough_search {
 
 /* ---- The batch ---- */
 
-static void read_last_revolutions(struct hough_batch *batch,
-                                             const struct command_line *line)
+static void read_last_revolutions(struct hough_batch *batch, const struct command_line *line)
 {
     struct plot_scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
                                                             &line->parameters, line->keep_going);

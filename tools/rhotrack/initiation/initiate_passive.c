@@ -63,6 +63,7 @@ static void add_track_hits_json(cJSON *object, const struct rho_passive *passive
                           sort_descending_into_json_list(hits, passive->num_tracks));
 }
 
+/* Score margins of candidates, without the tracks. */
 static void add_score_margins_json(cJSON *object, const struct rho_passive *passive)
 {
     cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
@@ -102,8 +103,7 @@ void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader =
-        last_bearings_open(line, &parameters);
+    struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_config config = method_passive_config(&parameters);
     struct bearings_search with = {passive, &passive->batch, push_passive_frame,
                                    search_passive_batch};

@@ -102,8 +102,7 @@ void initiate_passive_paper(const struct command_line *line)
 {
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader =
-        last_bearings_open(line, &parameters);
+    struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
     struct bearings_search with = {paper, &paper->batch, push_paper_frame, search_paper_batch};
 

@@ -42,8 +42,7 @@ static void check_sensor_distance(const struct frame_sensor *a, const struct fra
 }
 
 void bearing_sensors_check(const struct frame_sensor *sensors, size_t count,
-                                             const struct rho_batch *batch,
-                                             const struct parameters *parameters)
+                           const struct rho_batch *batch, const struct parameters *parameters)
 {
     if (count > RHO_MAX_PASSIVE_SENSORS) {
         fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,
@@ -79,9 +78,8 @@ static void push_and_count_frame(struct last_bearings *batch, const struct beari
     batch->time_us = frame->time_us;
 }
 
-struct bearing_frame_reader *
-last_bearings_open(const struct command_line *line,
-                                            struct parameters *parameters)
+struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
+                                                struct parameters *parameters)
 {
     struct bearing_frame_reader *reader = bearing_frame_reader_open(
         line->arguments, line->num_arguments, &line->parameters, line->keep_going);

@@ -29,9 +29,8 @@ struct last_bearings {
  * Opens files of bearings, and sets passive_apart_m of the parameters from their sensors. Exit 2
  * for fewer than two sensors and for bad input.
  */
-struct bearing_frame_reader *
-last_bearings_open(const struct command_line *line,
-                                            struct parameters *parameters);
+struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
+                                                struct parameters *parameters);
 
 /*
  * Pushes the last frames, searches them, and closes the reader. Exit 2 for too many sensors, or
@@ -46,7 +45,6 @@ double bearing_sensors_max_distance_m(const struct frame_sensor *sensors, size_t
 
 /* Exit 2 where the sensors are too many, or too far apart for the batch's cells. */
 void bearing_sensors_check(const struct frame_sensor *sensors, size_t count,
-                                             const struct rho_batch *batch,
-                                             const struct parameters *parameters);
+                           const struct rho_batch *batch, const struct parameters *parameters);
 
 #endif

@@ -127,6 +127,7 @@ static int by_id(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
+/* Fate of a plot that a track has taken. */
 static uint32_t fate_of_plot(const struct track_ids *ids, int32_t track_id)
 {
     const int32_t *found = bsearch(&track_id, ids->list, ids->count, sizeof ids->list[0], by_id);
@@ -152,8 +153,7 @@ static void add_claims_of_table(struct claims *claims, const struct track_ids *i
             continue;
         }
         claim.plot = (uint32_t)index;
-        claim.fate =
-            fate_of_plot(ids, (int32_t)table_number_or(table, row, id, -1.0));
+        claim.fate = fate_of_plot(ids, (int32_t)table_number_or(table, row, id, -1.0));
         claim.sensor_id = (int32_t)table_number_or(table, row, sensor, 0.0);
         claims->list = must_make_room_for_one(claims->list, claims->count, &claims->capacity,
                                               sizeof claims->list[0]);
@@ -232,8 +232,8 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
     struct claims claims = collect_claims(data);
     uint32_t count = 0;
     if (data->num_plot_paths > 0) {
-        struct plot_scan_reader *reader = plot_reader_open_sensorless(
-            data->plot_paths, data->num_plot_paths, parameters);
+        struct plot_scan_reader *reader =
+            plot_reader_open_sensorless(data->plot_paths, data->num_plot_paths, parameters);
         const struct rho_scan *scan;
         while ((scan = plot_scan_reader_next(reader)) != NULL) {
             append_double(&time, seconds_since(scan->time_us, zero_us));

@@ -213,8 +213,7 @@ static void read_all_bearings(struct plot_rays *rays, char *const *paths, int nu
         bearing_frame_reader_open(paths, num_paths, parameters, false);
     const struct rho_frame *frame;
     list_bearing_sensors(rays, reader);
-    rays->list =
-        must_calloc(bearing_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
+    rays->list = must_calloc(bearing_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
     while ((frame = bearing_frame_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
             const struct rho_bearing_scan *scan = &frame->scans[i];
@@ -329,8 +328,7 @@ struct picture_data picture_data_read(char *const *paths, int num_paths,
 }
 
 /* The earliest time of the points, or otherwise_us if that is earlier. */
-static int64_t earliest_time_us(const struct plot_points *points,
-                                                    int64_t otherwise_us)
+static int64_t earliest_time_us(const struct plot_points *points, int64_t otherwise_us)
 {
     for (size_t i = 0; i < points->count; i++) {
         otherwise_us =
@@ -342,8 +340,7 @@ static int64_t earliest_time_us(const struct plot_points *points,
 int64_t picture_data_time_origin_us(const struct picture_data *data)
 {
     int64_t zero_us = earliest_time_us(&data->truth, INT64_MAX);
-    zero_us = earliest_time_us(
-        &data->plots, earliest_time_us(&data->tracks, zero_us));
+    zero_us = earliest_time_us(&data->plots, earliest_time_us(&data->tracks, zero_us));
     for (size_t i = 0; i < data->bearings.count; i++) {
         const int64_t time_us = data->bearings.list[i].time_us;
         zero_us = time_us < zero_us ? time_us : zero_us;

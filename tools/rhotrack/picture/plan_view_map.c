@@ -171,8 +171,7 @@ double map_round_down_to_1_2_5(double value)
  * Radius of the largest range ring: distance to the farthest corner of the map, or the radar's
  * maximum range if that is less.
  */
-static double farthest_ring_radius_m(const struct map *map,
-                                                           const struct plot_radar *radar)
+static double farthest_ring_radius_m(const struct map *map, const struct plot_radar *radar)
 {
     const double x_m =
         fmax(fabs(map->box.x_min_m - radar->x_m), fabs(map->box.x_max_m - radar->x_m));
@@ -268,8 +267,7 @@ static void put_coverage_outline(const struct map *map, const struct plot_radar 
     fputc('\n', map->script);
 }
 
-void map_write_range_rings(const struct map *map, const struct plot_radar *radars,
-                                        size_t count)
+void map_write_range_rings(const struct map *map, const struct plot_radar *radars, size_t count)
 {
     fprintf(map->script, "$rings << EOD\n");
     for (size_t i = 0; i < count && count <= RADARS_RINGED; i++) {
@@ -285,8 +283,7 @@ void map_write_range_rings(const struct map *map, const struct plot_radar *radar
     }
 }
 
-void map_draw_range_rings(const struct map *map, const struct plot_radar *radars,
-                                       size_t count)
+void map_draw_range_rings(const struct map *map, const struct plot_radar *radars, size_t count)
 {
     bool is_limited = false;
     for (size_t i = 0; i < count; i++) {

@@ -72,10 +72,8 @@ void map_draw_plots(const struct map *map, const struct plot_points *plots);
  * rings (for at most three radars: more would hide the rest) and coverage where it is known.
  * map_draw_range_rings writes the clauses of the command plot that draw them.
  */
-void map_write_range_rings(const struct map *map, const struct plot_radar *radars,
-                                        size_t count);
-void map_draw_range_rings(const struct map *map, const struct plot_radar *radars,
-                                       size_t count);
+void map_write_range_rings(const struct map *map, const struct plot_radar *radars, size_t count);
+void map_draw_range_rings(const struct map *map, const struct plot_radar *radars, size_t count);
 
 /* Interval in points between markers of a path, so that neighbouring markers can be told apart. */
 size_t map_points_between_markers(const struct map *map, const struct plot_points *path);

@@ -98,8 +98,7 @@ void plot_scans_coloured_by_time(struct picture *picture, const struct picture_d
  * Writes the line that started each track: back from its first row with its first velocity, to the
  * time of the first plot or for at most six scans.
  */
-static void put_tracks_before_start(const struct map *map,
-                                                    const struct picture_data *data)
+static void put_tracks_before_start(const struct map *map, const struct picture_data *data)
 {
     struct plot_points one;
     size_t at = 0;

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "evaluation/gospa.h"
 #include "evaluation/alignment.h"
+#include "evaluation/gospa.h"
 
 #define MARKERS_MAX 40 /* most markers on a line; closer ones cannot be told apart */
 
@@ -127,8 +127,7 @@ static struct plot_point extrapolated_to_time(const struct plot_point *point, in
  * The tracks' points extrapolated to the truth's times; exits with 2 where a track time has no
  * truth time within most_us.
  */
-static struct plot_points
-extrapolate_to_truth(const struct picture_data *data, int64_t most_us)
+static struct plot_points extrapolate_to_truth(const struct picture_data *data, int64_t most_us)
 {
     struct plot_points truth = confirmed_points_by_time(&data->truth);
     struct plot_points tracks = confirmed_points_by_time(&data->tracks);
@@ -138,8 +137,7 @@ extrapolate_to_truth(const struct picture_data *data, int64_t most_us)
     if (unmatched < tracks.count) {
         alignment_fail_unmatched(tracks.list[unmatched].table, tracks.list[unmatched].row, most_us);
     }
-    struct alignment alignment =
-        alignment_list_rows(track_times, truth_times, most_us);
+    struct alignment alignment = alignment_list_rows(track_times, truth_times, most_us);
     struct plot_points aligned = {.list = must_calloc(alignment.count + 1, sizeof *aligned.list),
                                   .count = alignment.count};
     for (size_t i = 0; i < alignment.count; i++) {
@@ -153,10 +151,9 @@ extrapolate_to_truth(const struct picture_data *data, int64_t most_us)
 }
 
 struct plot_errors plot_errors_find(const struct picture_data *data,
-                                                          const struct parameters *parameters)
+                                    const struct parameters *parameters)
 {
-    struct plot_points aligned =
-        extrapolate_to_truth(data, alignment_tolerance_us(parameters));
+    struct plot_points aligned = extrapolate_to_truth(data, alignment_tolerance_us(parameters));
     size_t targets = data->truth.count + 1, tracks = aligned.count + 1;
     struct error_finder finder = {
         .truth = &data->truth,

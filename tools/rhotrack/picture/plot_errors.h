@@ -20,7 +20,7 @@ struct plot_errors {
  * target has a track. Time: number of truth times multiplied by the number of rows.
  */
 struct plot_errors plot_errors_find(const struct picture_data *data,
-                                                          const struct parameters *parameters);
+                                    const struct parameters *parameters);
 void plot_errors_free(struct plot_errors *errors);
 
 void plot_errors(struct picture *picture, const struct picture_data *data,

@@ -81,8 +81,8 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
     fprintf(script, "EOD\n");
 }
 
-static void put_track_lines(FILE *script, const struct plot_points *tracks,
-                                             double unit_m)
+/* Writes theta and rho of the tracks' lines. */
+static void put_track_lines(FILE *script, const struct plot_points *tracks, double unit_m)
 {
     struct plot_points one;
     size_t at = 0;
@@ -102,8 +102,7 @@ static void put_track_lines(FILE *script, const struct plot_points *tracks,
  * belong to one scan.
  */
 struct revolutions plot_parameter_space_read(const struct picture_data *data,
-                                                        const struct parameters *parameters,
-                                                        size_t scans)
+                                             const struct parameters *parameters, size_t scans)
 {
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
@@ -113,8 +112,8 @@ struct revolutions plot_parameter_space_read(const struct picture_data *data,
                  data->plot_paths[i]);
         }
     }
-    struct plot_scan_reader *reader = plot_reader_open_sensorless(
-        data->plot_paths, data->num_plot_paths, parameters);
+    struct plot_scan_reader *reader =
+        plot_reader_open_sensorless(data->plot_paths, data->num_plot_paths, parameters);
     struct revolutions revolutions = revolutions_read_last(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {
         num_plots += revolutions.list[i].scan.num_plots;
@@ -128,7 +127,7 @@ struct revolutions plot_parameter_space_read(const struct picture_data *data,
 }
 
 void plot_hough_votes(struct picture *picture, const struct picture_data *data,
-                                      const struct revolutions *revolutions)
+                      const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
     cast_all_votes(votes, revolutions);

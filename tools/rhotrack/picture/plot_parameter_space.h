@@ -18,11 +18,10 @@
  * are no plots or rows are refused. The caller frees the result with revolutions_free.
  */
 struct revolutions plot_parameter_space_read(const struct picture_data *data,
-                                                        const struct parameters *parameters,
-                                                        size_t scans);
+                                             const struct parameters *parameters, size_t scans);
 
 /* Draws the votes of the scans' plots, and the lines of the tracks in data. */
 void plot_hough_votes(struct picture *picture, const struct picture_data *data,
-                                      const struct revolutions *revolutions);
+                      const struct revolutions *revolutions);
 
 #endif

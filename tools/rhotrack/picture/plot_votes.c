@@ -64,9 +64,8 @@ static struct range range_with_margin(struct range range, unsigned cells)
  * Window of accumulator cells with any vote, plus a margin; `whole` holds the last picture's
  * component: of the neutrosophic method falsity, for which every candidate votes.
  */
-static struct rho_votes_picture
-window_around_votes(const struct rho_hough *hough,
-                                   const struct rho_votes_picture *whole)
+static struct rho_votes_picture window_around_votes(const struct rho_hough *hough,
+                                                    const struct rho_votes_picture *whole)
 {
     struct range theta = {hough->theta_cells, 0}, rho = {hough->rho_cells, 0};
 

@@ -253,8 +253,7 @@ struct register_result register_estimate_biases(struct register_data *data,
     register_track_all_radars(data, pipeline);
     register_update_matches(data, FIRST_GATE_M, 0.0);
     solution = register_solve_biases(data, reference);
-    while (rounds < ROUNDS_MAX &&
-           register_update_matches(data, FIRST_GATE_M, solution.misfit)) {
+    while (rounds < ROUNDS_MAX && register_update_matches(data, FIRST_GATE_M, solution.misfit)) {
         bias_solution_free(&solution);
         solution = register_solve_biases(data, reference);
         rounds++;

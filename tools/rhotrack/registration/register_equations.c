@@ -28,9 +28,9 @@ static int by_time(const void *a, const void *b)
     return (one->plot > other->plot) - (one->plot < other->plot);
 }
 
+/* Appends a track's plots, each with the biases estimated so far subtracted. */
 static void append_corrected_plots(const struct register_data *data,
-                                                 const struct radar_track *track,
-                                                 struct segments *segments)
+                                   const struct radar_track *track, struct segments *segments)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
@@ -171,8 +171,7 @@ static double place_along_row(const struct plot_terms *plot_terms, int row)
 }
 
 /* Subtracts `from`, the place of the segment's first plot: large coordinates would lose digits. */
-static void subtract_origin(struct plot_terms *plot_terms,
-                                            const struct corrected *origin)
+static void subtract_origin(struct plot_terms *plot_terms, const struct corrected *origin)
 {
     plot_terms->at.x_m -= origin->x_m;
     plot_terms->at.y_m -= origin->y_m;
@@ -190,8 +189,7 @@ static bool fit_path_coefficients(const struct plot_terms *plot_terms,
     memset(segment->coefficients, 0, sizeof segment->coefficients);
     for (size_t i = 0; i < segment->count; i++) {
         for (int row = 0; row < 2; row++) {
-            double values[SEGMENT_COEFFICIENTS],
-                value = place_along_row(&plot_terms[i], row);
+            double values[SEGMENT_COEFFICIENTS], value = place_along_row(&plot_terms[i], row);
 
             fill_coefficient_row(&plot_terms[i], row, values);
             for (int j = 0; j < SEGMENT_COEFFICIENTS; j++) {

@@ -47,9 +47,8 @@ struct pair {
  * Makes a course of a track: its plots corrected by the biases, with variances for the given ratio
  * of actual noise to sigmas.
  */
-static void make_course(const struct register_data *data,
-                                                const struct radar_track *track,
-                                                double noise_factor, struct course *course)
+static void make_course(const struct register_data *data, const struct radar_track *track,
+                        double noise_factor, struct course *course)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
@@ -98,9 +97,8 @@ static double mahalanobis2(const double covariance[3], double dx_m, double dy_m)
  * Compares plot i of `of` with the place interpolated between plots k and k + 1 of `between`, and
  * adds the squared distances to sum.
  */
-static void add_squared_distance(const struct course *of, size_t i,
-                                                   const struct course *between, size_t k,
-                                                   struct comparison *sum)
+static void add_squared_distance(const struct course *of, size_t i, const struct course *between,
+                                 size_t k, struct comparison *sum)
 {
     const struct corrected *from = &between->at[k], *to = &between->at[k + 1], *at = &of->at[i];
     double share = (at->t_s - from->t_s) / (to->t_s - from->t_s);
@@ -116,8 +114,9 @@ static void add_squared_distance(const struct course *of, size_t i,
     sum->sum_d2 += fmin(mahalanobis2(covariance, dx_m, dy_m), FAR_D2);
 }
 
+/* Squared distances of one track's plots to the course of another. */
 static struct comparison sum_squared_distances(const struct course *of,
-                                                                  const struct course *between)
+                                               const struct course *between)
 {
     struct comparison sum = {0};
     size_t k = 0;
@@ -242,8 +241,7 @@ static void join_targets(size_t *targets, size_t num_tracks, size_t one, size_t 
 }
 
 /* Stores the tracks' target numbers; true where any changed. */
-static bool store_track_targets(struct register_data *data,
-                                                    const size_t *targets)
+static bool store_track_targets(struct register_data *data, const size_t *targets)
 {
     bool is_changed = false;
 

@@ -54,8 +54,7 @@ static void add_bias_row(struct text_table *table, const struct register_result 
         double sigma = bias->is_known && !is_taken ? factor * bias->sigma : NAN;
 
         cells[2 * kind] = text_table_number_or_dash(texts[2 * kind], digits[kind], value);
-        cells[2 * kind + 1] =
-            text_table_number_or_dash(texts[2 * kind + 1], digits[kind], sigma);
+        cells[2 * kind + 1] = text_table_number_or_dash(texts[2 * kind + 1], digits[kind], sigma);
     }
     text_table_add_row(table, "%d|%zu|%zu|%zu|%s|%s|%s|%s|%s|%s", (int)of->sensor_id, of->plots,
                        of->tracks, of->common_plots, cells[0], cells[1], cells[2], cells[3],

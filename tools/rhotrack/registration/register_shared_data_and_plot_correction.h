@@ -85,8 +85,7 @@ size_t register_find_scan_after_turn(const struct radar_data *radar, size_t firs
  * misfit: ratio of the plots' noise to their sigmas, with which tracks must also agree
  * statistically; 0: they need not. In register_match_tracks.c.
  */
-bool register_update_matches(struct register_data *data, double gate_m,
-                                           double misfit);
+bool register_update_matches(struct register_data *data, double gate_m, double misfit);
 
 /* Number of targets of which several radars have tracks. */
 size_t register_num_common_targets(const struct register_data *data);

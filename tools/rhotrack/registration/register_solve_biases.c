@@ -214,9 +214,8 @@ struct solution register_solve_biases(struct register_data *data, size_t referen
     solution.sigma = must_calloc(normal.num + 1, sizeof *solution.sigma);
     summarise_segments(&segments, &solution);
     for (size_t i = 0; i < normal.num; i++) {
-        solution.sigma[i] =
-            solution.misfit * unit[i % NUM_REGISTER_KINDS] *
-            sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
+        solution.sigma[i] = solution.misfit * unit[i % NUM_REGISTER_KINDS] *
+                            sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
     }
     solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
     free(work);

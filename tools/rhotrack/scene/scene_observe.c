@@ -179,8 +179,7 @@ static double pd_at_range(const struct scene_curve *curve, double range_m)
 }
 
 /* Stores a plot: assigns its scan, limits range and azimuth, and folds an ambiguous range rate. */
-static void append_plot_to_scan(struct observer *observer,
-                                                        struct scene_plot plot)
+static void append_plot_to_scan(struct observer *observer, struct scene_plot plot)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double scans = (plot.t_s - sensor->start_s) / sensor->turn_s * (double)sensor->sectors;
@@ -421,8 +420,7 @@ static void add_image_plots(struct observer *observer, const struct sighting *si
         image.target_id = -1;
         image.range_m = portable_hypot(image.at.x_m - sensor->x_m, image.at.y_m - sensor->y_m);
         image.azimuth_rad = portable_atan2(image.at.y_m - sensor->y_m, image.at.x_m - sensor->x_m);
-        append_plot_to_scan(
-            observer, noisy_plot_of_sighting(sensor, &image, &random));
+        append_plot_to_scan(observer, noisy_plot_of_sighting(sensor, &image, &random));
     }
 }
 
@@ -589,8 +587,7 @@ static void add_body_plots(struct observer *observer, const struct scene_body *b
 
         if (random_uniform(&look) < pd &&
             is_place_in_coverage(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
-            append_plot_to_scan(observer,
-                                                        noisy_plot_of_sighting(sensor, &on, &look));
+            append_plot_to_scan(observer, noisy_plot_of_sighting(sensor, &on, &look));
             add_image_plots(observer, &on);
         }
     }
@@ -651,8 +648,8 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
             random_uniform(&random); /* skip the number that decided the detection */
             if (middle.is_seen) {
-                append_plot_to_scan(
-                    observer, noisy_plot_of_sighting(observer->sensor, &middle, &random));
+                append_plot_to_scan(observer,
+                                    noisy_plot_of_sighting(observer->sensor, &middle, &random));
                 add_split_plots(observer, &middle);
                 add_image_plots(observer, &middle);
             }
@@ -662,27 +659,26 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
 /* ---- clutter ---- */
 
-static void add_persistent_clutter(struct observer *observer,
-                                                  const struct scene_mover *mover,
-                                                  struct sighting *sighting, uint64_t item)
+/* Adds a plot of an object of the clutter that stays from scan to scan. */
+static void add_persistent_clutter(struct observer *observer, const struct scene_mover *mover,
+                                   struct sighting *sighting, uint64_t item)
 {
     struct random random =
         scene_random_stream(observer->seed, observer->run, STREAM_CLUTTER,
                             (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
 
     if (random_uniform(&random) < mover->pd) {
-        append_plot_to_scan(
-            observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
+        append_plot_to_scan(observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
     }
 }
 
-static void observe_persistent_clutter(struct observer *observer,
-                                               const struct scene_run *run, size_t source)
+static void observe_persistent_clutter(struct observer *observer, const struct scene_run *run,
+                                       size_t source)
 {
     struct scene_path *paths;
     size_t count, num_paths;
-    struct scene_mover *movers = draw_persistent_clutter(
-        run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
+    struct scene_mover *movers = draw_persistent_clutter(run->scene, source, run->seed, run->run,
+                                                         &count, &paths, &num_paths);
 
     for (size_t i = 0; i < count; i++) {
         for_each_detectable_sighting(observer, &movers[i], add_persistent_clutter,
@@ -700,8 +696,7 @@ static void observe_persistent_clutter(struct observer *observer,
  * out of coverage.
  */
 static void store_clutter_plot(struct observer *observer, size_t turn, double range_m,
-                                             double azimuth_rad, double x_m, double y_m,
-                                             double rate_mps)
+                               double azimuth_rad, double x_m, double y_m, double rate_mps)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double turn_s = sensor->start_s + (double)turn * sensor->turn_s, t_s = turn_s;
@@ -730,8 +725,8 @@ static void store_clutter_plot_at_xy(struct observer *observer, size_t turn, dou
 {
     double dx_m = x_m - observer->sensor->x_m, dy_m = y_m - observer->sensor->y_m;
 
-    store_clutter_plot(observer, turn, portable_hypot(dx_m, dy_m),
-                                     portable_atan2(dy_m, dx_m), x_m, y_m, rate_mps);
+    store_clutter_plot(observer, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m,
+                       y_m, rate_mps);
 }
 
 /* Limits of the sector, or of the full circle; *to_rad is above *from_rad. */
@@ -766,8 +761,8 @@ static void add_uniform_clutter_plot(struct observer *observer, const struct sce
 
         azimuth_limits(clutter->within.has_sector ? &clutter->within : coverage, &from_rad,
                        &to_rad);
-        store_clutter_plot(observer, turn, range_m,
-                                         random_between(random, from_rad, to_rad), 0, 0, rate_mps);
+        store_clutter_plot(observer, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
+                           rate_mps);
     }
 }
 
@@ -811,8 +806,8 @@ static void add_strobe_plot(struct observer *observer, const struct scene_clutte
 
     azimuth_rad = portable_wrap_angle(azimuth_rad);
     store_clutter_plot(observer, turn, range_m, azimuth_rad,
-                                     sensor->x_m + range_m * portable_cos(azimuth_rad),
-                                     sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
+                       sensor->x_m + range_m * portable_cos(azimuth_rad),
+                       sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
 }
 
 /*

@@ -7,9 +7,8 @@
 #include "base/common.h"
 #include "base/portable_math.h"
 
-bool folded_motion_at(const struct scene_mover *mover,
-                                                 const struct scene_sensor *sensor, double t_s,
-                                                 struct motion *at)
+bool folded_motion_at(const struct scene_mover *mover, const struct scene_sensor *sensor,
+                      double t_s, struct motion *at)
 {
     double dx_m, dy_m, range_m;
 
@@ -135,9 +134,9 @@ static void draw_sea_spike(const struct scene *scene, const struct scene_clutter
     mover->y_m -= mover->vy_mps * mover->from_s;
 }
 
-static size_t draw_num_spikes(const struct scene *scene,
-                                                   const struct scene_clutter *clutter,
-                                                   struct random *random)
+/* Number of sea spikes: drawn, or the fixed one. */
+static size_t draw_num_spikes(const struct scene *scene, const struct scene_clutter *clutter,
+                              struct random *random)
 {
     double from_s = fmax(-clutter->life_s.hi, clutter->from_s);
     double until_s = fmin(scene->duration_s, clutter->until_s);
@@ -148,9 +147,9 @@ static size_t draw_num_spikes(const struct scene *scene,
     return clutter->kind == CLUTTER_STANDING || clutter->kind == CLUTTER_FLOCK ? clutter->count : 0;
 }
 
-struct scene_mover *draw_persistent_clutter(const struct scene *scene, size_t source,
-                                                    uint64_t seed, uint64_t run, size_t *count,
-                                                    struct scene_path **paths, size_t *num_paths)
+struct scene_mover *draw_persistent_clutter(const struct scene *scene, size_t source, uint64_t seed,
+                                            uint64_t run, size_t *count, struct scene_path **paths,
+                                            size_t *num_paths)
 {
     const struct scene_clutter *clutter = &scene->clutter[source];
     struct random random = scene_random_stream(seed, run, STREAM_WORLD, source, 0, 0);

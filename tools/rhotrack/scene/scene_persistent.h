@@ -23,16 +23,15 @@ struct scene_mover {
  * Apparent motion of the object for the sensor at time t_s. False: the object does not exist then,
  * or is outside the ranges of a second-time-around echo.
  */
-bool folded_motion_at(const struct scene_mover *mover,
-                                                 const struct scene_sensor *sensor, double t_s,
-                                                 struct motion *at);
+bool folded_motion_at(const struct scene_mover *mover, const struct scene_sensor *sensor,
+                      double t_s, struct motion *at);
 
 /*
  * Draws the persistent objects of a clutter source, in new memory; kinds that are drawn anew each
  * scan have none. *paths gets the paths of second-time-around echoes, to be freed after the movers.
  */
-struct scene_mover *draw_persistent_clutter(const struct scene *scene, size_t source,
-                                                    uint64_t seed, uint64_t run, size_t *count,
-                                                    struct scene_path **paths, size_t *num_paths);
+struct scene_mover *draw_persistent_clutter(const struct scene *scene, size_t source, uint64_t seed,
+                                            uint64_t run, size_t *count, struct scene_path **paths,
+                                            size_t *num_paths);
 
 #endif

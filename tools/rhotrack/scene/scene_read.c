@@ -168,8 +168,8 @@ static void read_antenna_motion(struct json_object *object, struct scene_sensor 
     sensor->late_s = json_read_number(object, "late_s", 0, 60, 0);
 }
 
-static void read_resolution(struct json_object *object,
-                                              struct scene_sensor *sensor)
+/* Reads the resolution in range and azimuth. */
+static void read_resolution(struct json_object *object, struct scene_sensor *sensor)
 {
     sensor->resolution_m = json_read_number(object, "resolution_m", 0, 1e5, 0);
     if (!sensor->is_cartesian) {
@@ -406,9 +406,8 @@ static void read_clutter_about_targets(struct json_object *object, struct scene_
  * Checks that uniformly distributed clutter has an area, and that clutter drawn anew each scan is
  * not seen by a radar that measures velocities, which it does not have.
  */
-static void check_clutter(const struct scene *scene,
-                                                const struct json_object *object,
-                                                const struct scene_clutter *clutter)
+static void check_clutter(const struct scene *scene, const struct json_object *object,
+                          const struct scene_clutter *clutter)
 {
     bool is_cartesian = scene->num_radars > 0 && scene->sensors[0].is_cartesian;
     bool is_drawn_anew = clutter->kind == CLUTTER_UNIFORM || clutter->kind == CLUTTER_CELL ||

@@ -380,9 +380,8 @@ static struct scene_path draw_path_within_limits(const struct target_draft *draf
  * Draws the paths of one member of a group: a single one, or with is_replaced one after the other
  * with pauses, the first beginning somewhere in its life.
  */
-static void draw_successive_paths(struct scene_paths *paths,
-                                                const struct target_draft *draft,
-                                                struct random *random)
+static void draw_successive_paths(struct scene_paths *paths, const struct target_draft *draft,
+                                  struct random *random)
 {
     const struct target_item *item = draft->item;
     double life_s = item->has_life ? random_in_span(random, item->life) : INFINITY;
@@ -527,9 +526,9 @@ static void read_velocity(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_split_parent(struct json_object *object,
-                                                struct target_item *item,
-                                                const struct scene_targets *before)
+/* Reads the target that this one splits from. */
+static void read_split_parent(struct json_object *object, struct target_item *item,
+                              const struct scene_targets *before)
 {
     const struct target_item *parent;
 

@@ -43,8 +43,8 @@ static bool needs_arrival_column(const struct scene *scene)
 }
 
 /* Writes the cells scan and received_s, which all rows of a scan share. */
-static void write_arrival_cells(const struct scene_run *run,
-                                                const struct scene_scan *scan, FILE *file)
+static void write_arrival_cells(const struct scene_run *run, const struct scene_scan *scan,
+                                FILE *file)
 {
     fprintf(file, ",%zu", scan->number + 1);
     if (needs_arrival_column(run->scene)) {
@@ -89,8 +89,7 @@ static void write_cartesian_scan(const struct scene_run *run, const struct scene
                                  FILE *file)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
-    bool has_height = run->scene->has_heights,
-         has_velocity = has_velocity_radar(run->scene);
+    bool has_height = run->scene->has_heights, has_velocity = has_velocity_radar(run->scene);
 
     fprintf(file, "%.6f,%d,,%s,%s", scan->end_s, sensor->sensor_id, has_height ? "," : "",
             !has_velocity ? ""
@@ -135,8 +134,8 @@ static void write_plots_file(const struct scene_run *run, const char *folder)
 
     snprintf(cartesian, sizeof cartesian, "x_m,y_m%s,sigma_m%s", scene->has_heights ? ",z_m" : "",
              !has_velocity_radar(scene) ? ""
-             : scene->has_heights                       ? ",vx_mps,vy_mps,vz_mps,sigma_mps"
-                                                        : ",vx_mps,vy_mps,sigma_mps");
+             : scene->has_heights       ? ",vx_mps,vy_mps,vz_mps,sigma_mps"
+                                        : ",vx_mps,vy_mps,sigma_mps");
     fprintf(output.file, "t_s,sensor_id,%s,scan%s,target_id\n", columns,
             needs_arrival_column(scene) ? ",received_s" : "");
     for (size_t i = 0; i < run->num_scans; i++) {

@@ -128,8 +128,8 @@ static double must_count_rho_cells_per_side(double range_m, double cell_m)
 }
 
 /* Exit 2 where the neighbourhood of +-eps spans more cells than RHO_HOUGH_REACH_MAX. */
-static void check_eps_cells(const struct parameters *parameters,
-                                             enum parameter_id eps, enum parameter_id cell)
+static void check_eps_cells(const struct parameters *parameters, enum parameter_id eps,
+                            enum parameter_id cell)
 {
     if (2.0 * parameters->value[eps] > RHO_HOUGH_REACH_MAX * parameters->value[cell]) {
         fail(EXIT_USAGE, "2 %s is more than %u cells of %s %.9g", parameters_name(eps),

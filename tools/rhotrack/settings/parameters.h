@@ -352,15 +352,14 @@ extern const char parameters_no_origin[];
 
 /* Gets a sensor's latitude, longitude and altitude; false where its place was not given so. */
 bool parameters_sensor_geodetic(const struct parameters *parameters, int32_t sensor_id,
-                                         double geodetic[3]);
+                                double geodetic[3]);
 
 /*
  * Angle to add to a sensor's azimuths for azimuths in the local frame
  * (local_frame_convergence_rad); 0 for sensors that are not placed by latitude and
  * longitude.
  */
-double parameters_convergence_rad(const struct parameters *parameters,
-                                                  int32_t sensor_id);
+double parameters_convergence_rad(const struct parameters *parameters, int32_t sensor_id);
 
 bool parameters_has_value(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);

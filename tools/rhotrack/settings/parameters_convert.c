@@ -139,8 +139,7 @@ static void parameters_to_input_config(const struct parameters *parameters,
     config->initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
 }
 
-static bool is_parameter_set(const struct parameters *parameters,
-                                               enum parameter_id id)
+static bool is_parameter_set(const struct parameters *parameters, enum parameter_id id)
 {
     return parameters->source[id] > SOURCE_DEFAULT;
 }
@@ -172,14 +171,12 @@ static void set_learning_bounds(const struct parameters *parameters,
     const double *value = parameters->value;
     const bool says = is_noise_stated(parameters);
 
-    config->learn_noise_min =
-        says || is_parameter_set(parameters, PARAMETER_LEARN_NOISE_MIN)
-            ? (float)value[PARAMETER_LEARN_NOISE_MIN]
-            : UNSTATED_MIN;
-    config->learn_noise_max =
-        says || is_parameter_set(parameters, PARAMETER_LEARN_NOISE_MAX)
-            ? (float)value[PARAMETER_LEARN_NOISE_MAX]
-            : UNSTATED_MAX;
+    config->learn_noise_min = says || is_parameter_set(parameters, PARAMETER_LEARN_NOISE_MIN)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MIN]
+                                  : UNSTATED_MIN;
+    config->learn_noise_max = says || is_parameter_set(parameters, PARAMETER_LEARN_NOISE_MAX)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MAX]
+                                  : UNSTATED_MAX;
     config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
 }
 

@@ -59,8 +59,7 @@ struct local_frame *parameters_open_local_frame(const struct parameters *paramet
  * True where a sensor has a place by latitude and longitude. Exit 2 where that is incomplete, given
  * in metres as well, or has no origin.
  */
-static bool has_place_on_earth(const struct sensor_parameters *sensor,
-                                                     bool has_origin)
+static bool has_place_on_earth(const struct sensor_parameters *sensor, bool has_origin)
 {
     bool has_lat = is_sensor_value_set(sensor, SENSOR_LAT_DEG),
          has_lon = is_sensor_value_set(sensor, SENSOR_LON_DEG);
@@ -126,7 +125,7 @@ void parameters_locate_sensors(struct parameters *parameters)
 }
 
 bool parameters_sensor_geodetic(const struct parameters *parameters, int32_t sensor_id,
-                                         double geodetic[3])
+                                double geodetic[3])
 {
     const struct sensor_parameters *sensor = find_sensor_on_earth(parameters, sensor_id);
 
@@ -141,8 +140,7 @@ bool parameters_sensor_geodetic(const struct parameters *parameters, int32_t sen
     return true;
 }
 
-double parameters_convergence_rad(const struct parameters *parameters,
-                                                  int32_t sensor_id)
+double parameters_convergence_rad(const struct parameters *parameters, int32_t sensor_id)
 {
     const struct sensor_parameters *sensor = find_sensor_on_earth(parameters, sensor_id);
 

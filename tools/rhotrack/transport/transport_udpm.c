@@ -325,8 +325,7 @@ static bool is_source_admitted(struct transport *transport, struct udpm *udpm,
  * message; long messages of other programs are recognised by their channel and not counted.
  */
 static bool parse_whole_message(struct transport *transport, struct mmsghdr *here,
-                                                const uint8_t *bytes,
-                                                struct transport_message *message)
+                                const uint8_t *bytes, struct transport_message *message)
 {
     struct rho_udpm_datagram datagram;
     bool is_cut = here->msg_hdr.msg_flags & MSG_TRUNC;
@@ -363,8 +362,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
         int i = udpm->next++;
 
         if (is_source_admitted(transport, udpm, &udpm->sources[i]) &&
-            parse_whole_message(transport, &udpm->here[i], udpm->bytes[i],
-                                                message)) {
+            parse_whole_message(transport, &udpm->here[i], udpm->bytes[i], message)) {
             message->sender = (struct transport_sender){ntohl(udpm->sources[i].sin_addr.s_addr),
                                                         ntohs(udpm->sources[i].sin_port),
                                                         is_own_datagram(udpm, &udpm->sources[i])};

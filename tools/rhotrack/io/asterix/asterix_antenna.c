@@ -40,7 +40,7 @@ static bool is_repeated_crossing(const struct asterix_antenna *antenna, int64_t 
 }
 
 static enum asterix_crossing start_look_at_crossing(struct asterix_antenna *antenna,
-                                                             int64_t time_128, uint16_t azimuth)
+                                                    int64_t time_128, uint16_t azimuth)
 {
     antenna->has_last = true;
     antenna->last_128 = time_128;
@@ -48,10 +48,9 @@ static enum asterix_crossing start_look_at_crossing(struct asterix_antenna *ante
     return ASTERIX_BEGUN;
 }
 
-enum asterix_crossing asterix_antenna_end_look(struct asterix_antenna *antenna,
-                                                                int64_t time_128, uint16_t azimuth,
-                                                                struct asterix_look *look,
-                                                                bool *is_gap)
+enum asterix_crossing asterix_antenna_end_look(struct asterix_antenna *antenna, int64_t time_128,
+                                               uint16_t azimuth, struct asterix_look *look,
+                                               bool *is_gap)
 {
     int64_t took_128 = time_128 - antenna->last_128;
     uint32_t advance = (uint16_t)(azimuth - antenna->last);

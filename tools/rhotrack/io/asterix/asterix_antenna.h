@@ -41,10 +41,9 @@ enum asterix_crossing {
  * Processes a crossing of an azimuth. *is_gap: the time since the crossing before is too long, so
  * that crossings in between are missing.
  */
-enum asterix_crossing asterix_antenna_end_look(struct asterix_antenna *antenna,
-                                                                int64_t time_128, uint16_t azimuth,
-                                                                struct asterix_look *look,
-                                                                bool *is_gap);
+enum asterix_crossing asterix_antenna_end_look(struct asterix_antenna *antenna, int64_t time_128,
+                                               uint16_t azimuth, struct asterix_look *look,
+                                               bool *is_gap);
 
 /* Time of a whole turn at the look's own speed. */
 int64_t asterix_look_turn_time_128(const struct asterix_look *look);

@@ -136,11 +136,9 @@ static struct output_row make_row_of_plot_or_scan_start(const struct asterix_sca
      * start.
      */
     if (!scan->is_turn) {
-        put_rounded_cell(
-            &row, AT_SECTOR_FROM_RAD,
-            azimuth_rad_from_units(scan->look.from + scan->look.advance));
-        put_rounded_cell(&row, AT_SECTOR_TO_RAD,
-                         azimuth_rad_from_units(scan->look.from));
+        put_rounded_cell(&row, AT_SECTOR_FROM_RAD,
+                         azimuth_rad_from_units(scan->look.from + scan->look.advance));
+        put_rounded_cell(&row, AT_SECTOR_TO_RAD, azimuth_rad_from_units(scan->look.from));
     }
     if (scan->is_numbered) {
         put_rounded_cell(&row, AT_SCAN, scan->number);
@@ -264,8 +262,7 @@ void asterix_plot_rows_report_left_out(const char *path, const struct asterix_co
  * Notes the radar of a record and the columns that it fills. Returns whether it can be used: it has
  * a place of a plot, or the type and time of an antenna message.
  */
-static bool preview_record(struct asterix_plot_rows *records,
-                                              const struct asterix_record *record)
+static bool preview_record(struct asterix_plot_rows *records, const struct asterix_record *record)
 {
     struct asterix_service service;
     struct asterix_plot plot;

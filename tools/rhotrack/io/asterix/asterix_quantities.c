@@ -48,9 +48,8 @@ static bool find_ground_range(double slant_m, double alt_m, double radar_alt_m, 
  * Where not all plots of a scan have a height, converts the slant ranges of those that have one to
  * ground ranges, and drops the heights.
  */
-static void make_ground_ranges(struct asterix_scan_plots *marks,
-                                               const struct asterix_place *place,
-                                               struct asterix_counts *counts)
+static void make_ground_ranges(struct asterix_scan_plots *marks, const struct asterix_place *place,
+                               struct asterix_counts *counts)
 {
     size_t with = 0;
 
@@ -72,8 +71,8 @@ static void make_ground_ranges(struct asterix_scan_plots *marks,
 }
 
 void asterix_keep_common_quantities(struct asterix_scan_plots *marks,
-                                                 const struct asterix_place *place,
-                                                 struct asterix_counts *counts)
+                                    const struct asterix_place *place,
+                                    struct asterix_counts *counts)
 {
     make_ground_ranges(marks, place, counts);
     keep_dopplers_if_all_have(marks, counts);

@@ -33,7 +33,7 @@ static bool is_near_in_continuous_time(int64_t time_128, int64_t other_128)
 }
 
 bool asterix_radar_unwrap_time(struct asterix_radar *sensor, uint32_t time_of_day_128,
-                                     const int64_t *reference_128, int64_t *time_128)
+                               const int64_t *reference_128, int64_t *time_128)
 {
     if (!sensor->has_clock) {
         *time_128 =
@@ -83,8 +83,8 @@ static struct asterix_open_scan *add_open_scan(struct asterix_radar *sensor,
  * Adds a plot to the open look that passed its azimuth nearest to its time. Returns false where
  * none did.
  */
-static bool place_plot_in_look(struct asterix_radar *sensor,
-                               const struct asterix_scan_plot *mark, int64_t hold_128)
+static bool place_plot_in_look(struct asterix_radar *sensor, const struct asterix_scan_plot *mark,
+                               int64_t hold_128)
 {
     struct asterix_open_scan *nearest = NULL;
     int64_t least_128 = INT64_MAX, distance_128;
@@ -105,8 +105,7 @@ static bool place_plot_in_look(struct asterix_radar *sensor,
     return nearest;
 }
 
-static void place_waiting_plots(struct asterix_radar *sensor,
-                                                int64_t hold_128)
+static void place_waiting_plots(struct asterix_radar *sensor, int64_t hold_128)
 {
     size_t kept = 0;
 
@@ -119,8 +118,7 @@ static void place_waiting_plots(struct asterix_radar *sensor,
 }
 
 /* Time of the earliest waiting plot; otherwise_128 where none waits. */
-static int64_t first_waiting_plot_time(const struct asterix_radar *sensor,
-                                       int64_t otherwise_128)
+static int64_t first_waiting_plot_time(const struct asterix_radar *sensor, int64_t otherwise_128)
 {
     int64_t first_128 = otherwise_128;
 
@@ -145,8 +143,7 @@ static bool is_before_first_look(const struct asterix_radar *sensor)
  * Adds looks before the first one, back to the earliest waiting plot but at most one turn, at the
  * same rotation rate. Each is as wide as the first look, the earliest as wide as is left.
  */
-static void add_looks_before_first(struct asterix_radar *sensor,
-                                   const struct asterix_look *first)
+static void add_looks_before_first(struct asterix_radar *sensor, const struct asterix_look *first)
 {
     const int64_t turn_128 = asterix_look_turn_time_128(first);
     int64_t took_128 = first->start_128 - first_waiting_plot_time(sensor, first->start_128);
@@ -206,20 +203,17 @@ int64_t asterix_radar_settled_time(struct asterix_radar *sensor, int64_t hold_12
     return sensor->settled_128;
 }
 
-bool asterix_radar_end_look(struct asterix_radar *sensor,
-                                                   int64_t time_128, uint16_t azimuth,
-                                                   int64_t hold_128, struct asterix_counts *counts)
+bool asterix_radar_end_look(struct asterix_radar *sensor, int64_t time_128, uint16_t azimuth,
+                            int64_t hold_128, struct asterix_counts *counts)
 {
     struct asterix_look look;
     bool is_gap;
     enum asterix_crossing crossing;
 
-    if (!sensor->antenna.has_last &&
-        time_128 < asterix_radar_settled_time(sensor, hold_128)) {
+    if (!sensor->antenna.has_last && time_128 < asterix_radar_settled_time(sensor, hold_128)) {
         return false;
     }
-    crossing = asterix_antenna_end_look(&sensor->antenna, time_128, azimuth, &look,
-                                                         &is_gap);
+    crossing = asterix_antenna_end_look(&sensor->antenna, time_128, azimuth, &look, &is_gap);
     sensor->has_crossings = true;
     counts->gaps += is_gap;
     if (crossing == ASTERIX_LOOKED) {
@@ -230,9 +224,8 @@ bool asterix_radar_end_look(struct asterix_radar *sensor,
     return crossing != ASTERIX_BACK;
 }
 
-void asterix_radar_place_plot(struct asterix_radar *sensor,
-                                                const struct asterix_scan_plot *mark,
-                                                int64_t hold_128)
+void asterix_radar_place_plot(struct asterix_radar *sensor, const struct asterix_scan_plot *mark,
+                              int64_t hold_128)
 {
     if (!place_plot_in_look(sensor, mark, hold_128)) {
         asterix_scan_plots_add(&sensor->waiting, mark);
@@ -252,8 +245,7 @@ static struct asterix_open_scan *find_scan_begun_before(struct asterix_radar *se
 }
 
 void asterix_radar_add_timed_plot(struct asterix_radar *sensor,
-                                          const struct asterix_scan_plot *mark,
-                                          int64_t interval_128)
+                                  const struct asterix_scan_plot *mark, int64_t interval_128)
 {
     struct asterix_look look = {.start_128 = mark->time_128,
                                 .end_128 = mark->time_128 + interval_128,
@@ -272,7 +264,7 @@ void asterix_radar_add_timed_plot(struct asterix_radar *sensor,
 }
 
 void asterix_radar_drop_waiting(struct asterix_radar *sensor, bool all,
-                                            struct asterix_counts *counts)
+                                struct asterix_counts *counts)
 {
     size_t kept = 0;
 
@@ -288,8 +280,7 @@ void asterix_radar_drop_waiting(struct asterix_radar *sensor, bool all,
     sensor->waiting.count = kept;
 }
 
-void asterix_radar_end_last_look(struct asterix_radar *sensor,
-                                                  int64_t hold_128)
+void asterix_radar_end_last_look(struct asterix_radar *sensor, int64_t hold_128)
 {
     struct asterix_look look;
 
@@ -311,8 +302,7 @@ struct asterix_open_scan asterix_radar_take_scan(struct asterix_radar *sensor)
     return open;
 }
 
-bool asterix_radar_extend_turn(struct asterix_radar *sensor,
-                                              struct asterix_open_scan *open)
+bool asterix_radar_extend_turn(struct asterix_radar *sensor, struct asterix_open_scan *open)
 {
     struct asterix_open_scan *turn = &sensor->turn;
 

@@ -47,7 +47,7 @@ struct asterix_radar {
  * reference: a time near the first one; NULL: the first day.
  */
 bool asterix_radar_unwrap_time(struct asterix_radar *sensor, uint32_t time_of_day_128,
-                                     const int64_t *reference_128, int64_t *time_128);
+                               const int64_t *reference_128, int64_t *time_128);
 
 /* Time before which further plots of the radar count as late. It never goes back. */
 int64_t asterix_radar_settled_time(struct asterix_radar *sensor, int64_t hold_128);
@@ -56,30 +56,26 @@ int64_t asterix_radar_settled_time(struct asterix_radar *sensor, int64_t hold_12
  * Processes an antenna crossing: may end a look, into which waiting plots then go. Returns false
  * where it is older than the newest crossing, or too late.
  */
-bool asterix_radar_end_look(struct asterix_radar *sensor,
-                                                   int64_t time_128, uint16_t azimuth,
-                                                   int64_t hold_128, struct asterix_counts *counts);
+bool asterix_radar_end_look(struct asterix_radar *sensor, int64_t time_128, uint16_t azimuth,
+                            int64_t hold_128, struct asterix_counts *counts);
 
 /* Adds a plot to the look that passed it, or keeps it until there is one. */
-void asterix_radar_place_plot(struct asterix_radar *sensor,
-                                                const struct asterix_scan_plot *mark,
-                                                int64_t hold_128);
+void asterix_radar_place_plot(struct asterix_radar *sensor, const struct asterix_scan_plot *mark,
+                              int64_t hold_128);
 
 /*
  * Adds a plot of a radar without crossings to a scan of interval_128, or as a scan of its own where
  * that is 0.
  */
 void asterix_radar_add_timed_plot(struct asterix_radar *sensor,
-                                          const struct asterix_scan_plot *mark,
-                                          int64_t interval_128);
+                                  const struct asterix_scan_plot *mark, int64_t interval_128);
 
 /* Drops and counts waiting plots: all, or those that waited longer than any turn takes. */
 void asterix_radar_drop_waiting(struct asterix_radar *sensor, bool all,
-                                            struct asterix_counts *counts);
+                                struct asterix_counts *counts);
 
 /* Closes the look since the newest crossing, at the end of input, if plots wait for it. */
-void asterix_radar_end_last_look(struct asterix_radar *sensor,
-                                                  int64_t hold_128);
+void asterix_radar_end_last_look(struct asterix_radar *sensor, int64_t hold_128);
 
 /* Removes and returns the oldest open scan; its plots then belong to the caller. */
 struct asterix_open_scan asterix_radar_take_scan(struct asterix_radar *sensor);
@@ -88,16 +84,15 @@ struct asterix_open_scan asterix_radar_take_scan(struct asterix_radar *sensor);
  * Adds a complete look to the radar's turn. Returns false, and changes nothing, where the look does
  * not begin where the turn ends.
  */
-bool asterix_radar_extend_turn(struct asterix_radar *sensor,
-                                              struct asterix_open_scan *open);
+bool asterix_radar_extend_turn(struct asterix_radar *sensor, struct asterix_open_scan *open);
 
 /*
  * Keeps heights and Doppler speeds only where all plots of a scan have them; else heights convert
  * slant ranges to ground ranges.
  */
 void asterix_keep_common_quantities(struct asterix_scan_plots *marks,
-                                                 const struct asterix_place *place,
-                                                 struct asterix_counts *counts);
+                                    const struct asterix_place *place,
+                                    struct asterix_counts *counts);
 
 void asterix_scan_plots_add(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark);
 void asterix_radar_free(struct asterix_radar *sensor);

@@ -88,7 +88,7 @@ const struct asterix_counts *asterix_scans_counts(const struct asterix_scans *sc
 
 /* The radar's state, begun where it is new; NULL where there is no room for another radar. */
 static struct asterix_radar *find_or_add_sensor(struct asterix_scans *scans,
-                                                      const struct asterix_source *source)
+                                                const struct asterix_source *source)
 {
     int32_t sensor_id = asterix_sensor_id(source);
     size_t i = 0;
@@ -107,6 +107,7 @@ static struct asterix_radar *find_or_add_sensor(struct asterix_scans *scans,
 
 /* ---- Complete scans ---- */
 
+/* Order by time, then by azimuth. */
 static int compare_plots(const void *a, const void *b)
 {
     const struct asterix_scan_plot *one = a, *other = b;
@@ -133,8 +134,7 @@ static void queue_complete_scan(struct asterix_scans *scans, struct asterix_rada
                                 .count = open->marks.count};
 
     if (scan.count > 0) {
-        qsort(open->marks.list, scan.count, sizeof *open->marks.list,
-              compare_plots);
+        qsort(open->marks.list, scan.count, sizeof *open->marks.list, compare_plots);
     }
     asterix_keep_common_quantities(&open->marks, &sensor->place, &scans->counts);
     scans->counts.placed += scan.count;
@@ -179,8 +179,7 @@ static void finish_looks_until(struct asterix_scans *scans, struct asterix_radar
 }
 
 /* Ends all looks of the radar and its turn, and drops plots that fit none. */
-static void finish_all_scans_of_sensor(struct asterix_scans *scans,
-                                       struct asterix_radar *sensor)
+static void finish_all_scans_of_sensor(struct asterix_scans *scans, struct asterix_radar *sensor)
 {
     if (sensor->has_crossings) {
         asterix_radar_end_last_look(sensor, scans->hold_128);
@@ -239,8 +238,8 @@ static void finish_scans_of_silent_sensors(struct asterix_scans *scans)
  * a bad time.
  */
 static bool unwrap_time_and_advance_clocks(struct asterix_scans *scans,
-                                           struct asterix_radar *sensor,
-                                           uint32_t time_of_day_128, int64_t *time_128)
+                                           struct asterix_radar *sensor, uint32_t time_of_day_128,
+                                           int64_t *time_128)
 {
     const int64_t *reference_128 = scans->has_clock   ? &scans->clock_128
                                    : scans->has_start ? &scans->start_128
@@ -260,8 +259,7 @@ static bool unwrap_time_and_advance_clocks(struct asterix_scans *scans,
 
 /* Full time of day of a truncated one (modulo 512 s), nearest to the radar's newest known time. */
 static uint32_t untruncated_time_of_day(const struct asterix_scans *scans,
-                                        const struct asterix_radar *sensor,
-                                        uint32_t truncated_128)
+                                        const struct asterix_radar *sensor, uint32_t truncated_128)
 {
     const int64_t near_128 = sensor->has_clock  ? sensor->clock_128
                              : scans->has_clock ? scans->clock_128
@@ -278,8 +276,7 @@ static uint32_t untruncated_time_of_day(const struct asterix_scans *scans,
  * Once wait_128 is over, takes a radar without crossings as one that reports none, and forms scans
  * of its plots that waited.
  */
-static void end_wait_for_crossings_if_due(struct asterix_scans *scans,
-                                          struct asterix_radar *sensor)
+static void end_wait_for_crossings_if_due(struct asterix_scans *scans, struct asterix_radar *sensor)
 {
     if (sensor->is_known || sensor->has_crossings ||
         sensor->clock_128 - sensor->first_128 < scans->wait_128) {
@@ -419,8 +416,8 @@ static void process_service(struct asterix_scans *scans, const struct asterix_se
         scans->counts.services_other++;
     } else if (!sensor || !is_crossing(service) ||
                !unwrap_time_and_advance_clocks(scans, sensor, service->time_128, &time_128) ||
-               !asterix_radar_end_look(sensor, time_128, azimuth,
-                                                              scans->hold_128, &scans->counts)) {
+               !asterix_radar_end_look(sensor, time_128, azimuth, scans->hold_128,
+                                       &scans->counts)) {
         scans->counts.services_left++;
     } else {
         finish_due_scans(scans, sensor);

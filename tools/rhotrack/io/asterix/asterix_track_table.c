@@ -114,6 +114,7 @@ static void put_position_cells(const struct reading *reading, const struct aster
     }
 }
 
+/* Fills velocity, acceleration and sigmas. */
 static void put_motion_cells(const struct asterix_track *track, double *cells)
 {
     if (track->has_velocity) {
@@ -159,8 +160,8 @@ static void add_track_row(struct reading *reading, const struct asterix_track *t
     }
 }
 
-static void check_tracks_found(const struct reading *reading,
-                                                          const char *path)
+/* Exit 2 where there were no tracks; reports tracks that were incomplete. */
+static void check_tracks_found(const struct reading *reading, const char *path)
 {
     if (reading->table->num_rows == 0 && reading->on_earth > 0) {
         fail(EXIT_USAGE,

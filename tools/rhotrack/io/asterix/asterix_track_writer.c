@@ -200,8 +200,7 @@ static void add_end_record(struct asterix_track_writer *tracks, const struct ent
 }
 
 /* Writes the list's tracks, and end records of those that only the list before had, by track_id. */
-static void write_list_and_ends(struct asterix_track_writer *tracks,
-                                                     uint32_t time_128)
+static void write_list_and_ends(struct asterix_track_writer *tracks, uint32_t time_128)
 {
     const struct list *before = &tracks->before;
     size_t gone = 0;
@@ -238,7 +237,7 @@ static void write_and_keep_list(struct asterix_track_writer *tracks, int64_t uti
 }
 
 void asterix_track_writer_add(struct asterix_track_writer *tracks,
-                                        const struct rho_message_track_list *message)
+                              const struct rho_message_track_list *message)
 {
     for (int i = 0; i < message->num_tracks; i++) {
         const struct rho_message_track *track = &message->tracks[i];

@@ -35,7 +35,7 @@ struct asterix_track_writer *asterix_track_writer_open(FILE *file,
 
 /* Adds a message of tracks; the last part of a list writes the whole list. */
 void asterix_track_writer_add(struct asterix_track_writer *tracks,
-                                        const struct rho_message_track_list *message);
+                              const struct rho_message_track_list *message);
 void asterix_track_writer_free(
     struct asterix_track_writer *tracks); /* Frees the writer; NULL is allowed. */
 

@@ -71,7 +71,7 @@ static void need_origin(const struct columns *columns, const struct parameters *
 }
 
 struct geodetic_columns *geodetic_open(const struct table *table,
-                                               const struct parameters *parameters)
+                                       const struct parameters *parameters)
 {
     const struct columns columns = columns_find(table);
     struct geodetic_columns *geodetic = must_calloc(1, sizeof *geodetic);
@@ -133,7 +133,7 @@ static bool check_distance_to_origin(const struct row_check *check, enum column_
 }
 
 bool geodetic_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
-                                 double place_m[3], bool *has_alt)
+                         double place_m[3], bool *has_alt)
 {
     double on_earth[3] = {0, 0, geodetic->parameters->value[PARAMETER_ORIGIN_ALT_M]};
 
@@ -222,9 +222,8 @@ static bool find_radar_place(const struct geodetic_columns *geodetic, const stru
                "sensor_alt_m is given without sensor_lat_deg or the sensor's parameter lat_deg");
 }
 
-bool geodetic_radar_frame(struct geodetic_columns *geodetic,
-                                       const struct row_check *check, int32_t sensor_id,
-                                       const struct radar_axes **frame)
+bool geodetic_radar_frame(struct geodetic_columns *geodetic, const struct row_check *check,
+                          int32_t sensor_id, const struct radar_axes **frame)
 {
     double on_earth[3] = {0, 0, 0};
     bool is_said = false;
@@ -255,8 +254,7 @@ static const struct radar_axes *frame_of_polar_plot(struct geodetic_columns *geo
 }
 
 static bool read_target_height(const struct geodetic_columns *geodetic,
-                               const struct row_check *check,
-                               const struct geodetic_polar *polar,
+                               const struct row_check *check, const struct geodetic_polar *polar,
                                struct radar_height *height)
 {
     const struct parameters *parameters = geodetic->parameters;
@@ -275,8 +273,7 @@ static bool read_target_height(const struct geodetic_columns *geodetic,
  * subtracted from the range later.
  */
 static bool set_elevation_from_height(struct geodetic_columns *geodetic,
-                                      const struct row_check *check,
-                                      struct geodetic_polar *polar)
+                                      const struct row_check *check, struct geodetic_polar *polar)
 {
     double range_m = polar->look.range_m;
     double bias_m = parameters_value_of_sensor(geodetic->parameters, polar->sensor_id,
@@ -290,16 +287,15 @@ static bool set_elevation_from_height(struct geodetic_columns *geodetic,
     polar->has_elevation =
         polar->look.range_m > 0 &&
         radar_axes_height_elevation(frame_of_polar_plot(geodetic, polar), polar->place_m[2],
-                                         &height, &polar->look, &polar->sigma_elevation_rad);
+                                    &height, &polar->look, &polar->sigma_elevation_rad);
     polar->look.range_m = range_m;
     return polar->has_elevation ||
            row_refuse(check, "alt_m %.9g differs from the radar's height by more than range_m %.9g",
                       height.alt_m, range_m);
 }
 
-bool geodetic_turn_polar(struct geodetic_columns *geodetic,
-                                                const struct row_check *check,
-                                                struct geodetic_polar *polar)
+bool geodetic_turn_polar(struct geodetic_columns *geodetic, const struct row_check *check,
+                         struct geodetic_polar *polar)
 {
     if (row_has_cell(check, COL_ALT_M)) {
         return set_elevation_from_height(geodetic, check, polar);

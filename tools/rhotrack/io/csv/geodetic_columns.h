@@ -26,9 +26,8 @@ struct geodetic_columns;
  * there are latitudes without an origin, or two sources of heights.
  */
 struct geodetic_columns *geodetic_open(const struct table *table,
-                                               const struct parameters *parameters);
-void geodetic_close(
-    struct geodetic_columns *geodetic); /* frees the object; NULL is allowed */
+                                       const struct parameters *parameters);
+void geodetic_close(struct geodetic_columns *geodetic); /* frees the object; NULL is allowed */
 
 /* Whether the table has lat_deg and lon_deg as positions of plots or targets; false for NULL. */
 bool geodetic_has_places(const struct geodetic_columns *geodetic);
@@ -37,15 +36,14 @@ bool geodetic_has_places(const struct geodetic_columns *geodetic);
 
 /* Reads the row's position. Without alt_m it is taken at the origin's height, and z_m is 0. */
 bool geodetic_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
-                                 double place_m[3], bool *has_alt);
+                         double place_m[3], bool *has_alt);
 
 /*
  * The frame of the row's radar, where the row or the parameters give its position as latitude and
  * longitude; else NULL. Valid until another frame is found, or the close.
  */
-bool geodetic_radar_frame(struct geodetic_columns *geodetic,
-                                       const struct row_check *check, int32_t sensor_id,
-                                       const struct radar_axes **frame);
+bool geodetic_radar_frame(struct geodetic_columns *geodetic, const struct row_check *check,
+                          int32_t sensor_id, const struct radar_axes **frame);
 
 /* A polar plot under conversion. */
 struct geodetic_polar {
@@ -62,8 +60,7 @@ struct geodetic_polar {
  * Converts angles from the radar's own frame to the local frame, and alt_m, if the row has it, to
  * an elevation.
  */
-bool geodetic_turn_polar(struct geodetic_columns *geodetic,
-                                                const struct row_check *check,
-                                                struct geodetic_polar *polar);
+bool geodetic_turn_polar(struct geodetic_columns *geodetic, const struct row_check *check,
+                         struct geodetic_polar *polar);
 
 #endif

@@ -19,8 +19,9 @@ struct azimuths {
     unsigned rising, falling;
 };
 
-static void count_azimuth_step(struct azimuths *azimuths, double time_s,
-                                               double sensor, double azimuth_rad)
+/* Counts the step from the azimuth before as rising or falling. */
+static void count_azimuth_step(struct azimuths *azimuths, double time_s, double sensor,
+                               double azimuth_rad)
 {
     const double step_rad = azimuth_rad - azimuths->last_rad;
 
@@ -121,7 +122,7 @@ struct origin_and_azimuth_sense guess_origin_from_rows(const char *path)
                     cell_number_or_nan(table, table_find_column(table, "sensor_id"));
 
                 count_azimuth_step(&azimuths, cell_time_s_or_nan(table, time),
-                                                   isnan(sensor) ? 0 : sensor, azimuth_rad);
+                                   isnan(sensor) ? 0 : sensor, azimuth_rad);
             }
         }
     }

@@ -89,8 +89,7 @@ void local_frame_convert_place(const struct local_frame *from, const struct loca
     local_frame_to_local(to, geodetic, other_m);
 }
 
-double local_frame_convergence_rad(const struct local_frame *from,
-                                            const struct local_frame *to)
+double local_frame_convergence_rad(const struct local_frame *from, const struct local_frame *to)
 {
     static const double origin_m[3] = {0, 0, 0}, north_m[3] = {0, 1000, 0};
     double origin[3], north[3];
@@ -119,7 +118,7 @@ static void place_at_elevation(const struct local_frame_plot *plot, double sin_e
  * is relative to its flattening, 1/298.
  */
 bool local_frame_from_slant_range(const struct local_frame *radar,
-                                       const struct local_frame_plot *plot, double place_m[3])
+                                  const struct local_frame_plot *plot, double place_m[3])
 {
     enum { STEPS_MAX = 50 };
     const double tolerance_m = 1e-4;

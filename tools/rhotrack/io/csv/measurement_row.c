@@ -95,12 +95,11 @@ static void check_plot_columns(struct columns *columns, bool needs_sensor)
 }
 
 struct measurement_columns measurement_columns_find(const struct table *table,
-                                                            const struct parameters *parameters,
-                                                            enum record_kind kind,
-                                                            bool needs_sensor)
+                                                    const struct parameters *parameters,
+                                                    enum record_kind kind, bool needs_sensor)
 {
     struct measurement_columns columns = {.in_file = columns_find(table),
-                                              .is_bearings = kind == RECORD_BEARINGS};
+                                          .is_bearings = kind == RECORD_BEARINGS};
 
     if (columns.is_bearings) {
         check_bearing_columns(&columns.in_file);
@@ -315,8 +314,7 @@ static bool convert_to_local_frame(const struct row_reading *reading,
         .sigma_range_m = (double)polar->sigma_range_m,
         .sigma_elevation_rad = (double)polar->sigma_elevation_rad};
 
-    if (!geodetic_turn_polar(reading->columns->geodetic, &reading->cells,
-                                                    &seen)) {
+    if (!geodetic_turn_polar(reading->columns->geodetic, &reading->cells, &seen)) {
         return false;
     }
     polar->azimuth_rad = (float)seen.look.azimuth_rad;
@@ -389,8 +387,7 @@ static bool set_sensor_at_position_of_row(const struct row_reading *reading,
                       columns->in_file.at[COL_SENSOR_Z_M] >= 0;
     parameters_to_sensor_or_defaults(reading->parameters, row->sensor_id, &row->sensor);
     row->bias_us = rho_measurement_time_bias_us(&row->sensor);
-    if (!geodetic_radar_frame(columns->geodetic, &reading->cells, row->sensor_id,
-                                           &row->frame)) {
+    if (!geodetic_radar_frame(columns->geodetic, &reading->cells, row->sensor_id, &row->frame)) {
         return false;
     }
     if (row->frame) {

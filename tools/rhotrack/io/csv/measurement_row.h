@@ -57,9 +57,8 @@ bool measurement_row_is_bearings(const struct table *table);
  * sensor 0; bearings always need it. To be freed before the parameters.
  */
 struct measurement_columns measurement_columns_find(const struct table *table,
-                                                            const struct parameters *parameters,
-                                                            enum record_kind kind,
-                                                            bool needs_sensor);
+                                                    const struct parameters *parameters,
+                                                    enum record_kind kind, bool needs_sensor);
 void measurement_columns_free(struct measurement_columns *columns);
 
 /* Reads a row. Returns false and sets the reason where the row is bad. */

@@ -53,7 +53,7 @@ double radar_axes_turn_rad(const struct radar_axes *frame)
 
 /* Azimuth and elevation in the common frame of a position in the radar's own frame. */
 static void set_common_angles(const struct radar_axes *frame, const double own_m[3],
-                                            struct radar_look *look)
+                              struct radar_look *look)
 {
     double place_m[3];
 
@@ -126,8 +126,8 @@ static double elevation_sine_at_target(double radar_alt_m, double target_alt_m, 
 }
 
 bool radar_axes_height_elevation(const struct radar_axes *frame, double radar_z_m,
-                                      const struct radar_height *height, struct radar_look *look,
-                                      double *sigma_elevation_rad)
+                                 const struct radar_height *height, struct radar_look *look,
+                                 double *sigma_elevation_rad)
 {
     struct local_frame_plot plot = {
         .range_m = look->range_m, .azimuth_rad = look->azimuth_rad, .alt_m = height->alt_m};

@@ -60,7 +60,7 @@ struct radar_height {
  * by more than the range.
  */
 bool radar_axes_height_elevation(const struct radar_axes *frame, double radar_z_m,
-                                      const struct radar_height *height, struct radar_look *look,
-                                      double *sigma_elevation_rad);
+                                 const struct radar_height *height, struct radar_look *look,
+                                 double *sigma_elevation_rad);
 
 #endif

@@ -156,8 +156,8 @@ bool row_read_received(const struct row_check *check, int64_t *received_us)
            row_read_time(check, COL_RECEIVED_S, received_us);
 }
 
-bool row_check_received(const struct row_check *check, int64_t received_us,
-                                        int64_t scan_us, bool has_number, int64_t interval_us)
+bool row_check_received(const struct row_check *check, int64_t received_us, int64_t scan_us,
+                        bool has_number, int64_t interval_us)
 {
     return has_number || interval_us > 0 || received_us == scan_us ||
            row_refuse(check,

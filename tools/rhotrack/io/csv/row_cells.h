@@ -70,8 +70,8 @@ bool row_read_received(const struct row_check *check, int64_t *received_us);
  * Checks that a row was received at scan_us, as the other rows of its scan, unless the scan has a
  * number or is gathered over an interval, when reception times may differ.
  */
-bool row_check_received(const struct row_check *check, int64_t received_us,
-                                        int64_t scan_us, bool has_number, int64_t interval_us);
+bool row_check_received(const struct row_check *check, int64_t received_us, int64_t scan_us,
+                        bool has_number, int64_t interval_us);
 
 /*
  * Number of a row's scan, where the file has one: rows of one sensor with equal numbers form one

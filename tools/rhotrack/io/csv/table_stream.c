@@ -222,6 +222,7 @@ static void mark_row_complete(int end, void *user)
     ((struct table_stream *)user)->row_is_complete = true;
 }
 
+/* Starts the parser again, with the file's separator. */
 static void restart_csv_parser(struct table_stream *stream)
 {
     if (csv_init(&stream->parser, CSV_STRICT | CSV_STRICT_FINI)) {
@@ -464,8 +465,7 @@ static enum table_stream_found find_line(struct table_stream *stream, size_t *le
             return TABLE_STREAM_END;
         }
         refuse_too_long_row(stream);
-        if (complete_line_length(stream) == 0 &&
-            !read_more(stream)) {
+        if (complete_line_length(stream) == 0 && !read_more(stream)) {
             return TABLE_STREAM_WAITS;
         }
     }

@@ -112,9 +112,9 @@ static void offer_event_to_assembler(struct log_scans *scans)
 {
     const struct lcm_log_event *event = &scans->event;
 
-    scans->has_event = out_of_sequence_counts_take(&scans->order, scans->assembler,
-                                                           event->channel, event->data, event->size,
-                                                           event->utime) == RHO_ERROR_CAPACITY;
+    scans->has_event =
+        out_of_sequence_counts_take(&scans->order, scans->assembler, event->channel, event->data,
+                                    event->size, event->utime) == RHO_ERROR_CAPACITY;
 }
 
 static void read_and_offer_event(struct log_scans *scans)
@@ -163,8 +163,7 @@ static int64_t item_scan_time_us(const struct rho_scan_assembler_item *item)
  * the scans before are left out.
  */
 static void refuse_clock_restart(struct log_scans *scans,
-                                                      const struct rho_scan_assembler_item *item,
-                                                      bool keep_going)
+                                 const struct rho_scan_assembler_item *item, bool keep_going)
 {
     double time_s = 1e-6 * (double)item_scan_time_us(item);
     uint64_t before = scans->num_given - 1;
@@ -185,8 +184,7 @@ static void refuse_clock_restart(struct log_scans *scans,
 /*
  * Goes through the whole log to count its scans, and to find the last time the clock was set back.
  */
-static void preview_scans(struct log_scans *scans, uint64_t file_bytes,
-                                                    bool keep_going)
+static void preview_scans(struct log_scans *scans, uint64_t file_bytes, bool keep_going)
 {
     struct rho_scan_assembler_item item;
     int64_t last_us = INT64_MIN;

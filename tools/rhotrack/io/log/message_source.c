@@ -38,6 +38,7 @@ static void next_log_event(struct input *input)
                                           .size = input->log_event.size};
 }
 
+/* Makes the next message of a CSV file's rows. */
 static void next_message_of_rows(struct input *input)
 {
     input->has_event = rows_to_messages_next_message(&input->scans, &input->at, &input->output);
@@ -77,8 +78,7 @@ static void open_log_or_csv_input(struct input *input, const char *path,
 }
 
 struct message_source *message_source_open(char *const *paths, int num_paths,
-                                                       const struct parameters *parameters,
-                                                       bool keep_going)
+                                           const struct parameters *parameters, bool keep_going)
 {
     struct message_source *source = must_calloc(1, sizeof *source);
 

@@ -37,8 +37,7 @@ struct message_event {
  * it is used, damaged places are skipped and counted; a log without events: exit 2.
  */
 struct message_source *message_source_open(char *const *paths, int num_paths,
-                                                       const struct parameters *parameters,
-                                                       bool keep_going);
+                                           const struct parameters *parameters, bool keep_going);
 
 /* Takes the next message of all files. Returns false after the last one. */
 bool message_source_next(struct message_source *source, struct message_event *event);

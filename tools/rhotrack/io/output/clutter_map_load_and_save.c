@@ -118,8 +118,7 @@ static bool is_sigma_configured(const struct parameters *parameters, int32_t sen
 }
 
 /* Sets an echo's sigmas to the noise of its sensor's plots at that range. */
-static void set_sigmas_of_sensor(const struct parameters *parameters,
-                                                struct clutter_echo *echo)
+static void set_sigmas_of_sensor(const struct parameters *parameters, struct clutter_echo *echo)
 {
     double range_m = SIGMA_BY_HAND_M, cross_m = SIGMA_BY_HAND_M;
     const int32_t id = echo->sensor_id;
@@ -171,8 +170,8 @@ static bool read_echo(const struct row_check *check, struct geodetic_columns *ge
     return true;
 }
 
-static bool read_return_counts(const struct row_check *check,
-                                                 struct return_counts *counts)
+/* Reads the looks and returns of a class of echoes. */
+static bool read_return_counts(const struct row_check *check, struct return_counts *counts)
 {
     int32_t hits, unseen, region = ALL_REGIONS;
 
@@ -207,9 +206,8 @@ static struct clutter_row *read_rows(const char *path, const struct parameters *
         const struct row_check check = {.columns = &columns, .row = row, .reason = reason};
 
         rows[row].is_echo = !row_has_cell(&check, COL_LOOKS);
-        if (!(rows[row].is_echo
-                  ? read_echo(&check, geodetic, parameters, &rows[row].echo)
-                  : read_return_counts(&check, &rows[row].counts))) {
+        if (!(rows[row].is_echo ? read_echo(&check, geodetic, parameters, &rows[row].echo)
+                                : read_return_counts(&check, &rows[row].counts))) {
             table_fail_at_row(table, row, "%s", reason);
         }
     }

@@ -54,8 +54,7 @@ static void write_peak_list(struct initiated_output *found)
     found->list.num_peaks = 0;
 }
 
-void initiated_output_add_row(struct initiated_output *found,
-                                     const struct initiated *row)
+void initiated_output_add_row(struct initiated_output *found, const struct initiated *row)
 {
     if (!found->is_log) {
         initiated_write_row(found->output.file, row);

@@ -12,8 +12,7 @@ struct initiated_output;
 
 /* Opens the output. path NULL: CSV to standard output. Errors: exit 1; 2 for other formats. */
 struct initiated_output *initiated_output_open(const char *path);
-void initiated_output_add_row(struct initiated_output *found,
-                                     const struct initiated *row);
+void initiated_output_add_row(struct initiated_output *found, const struct initiated *row);
 
 /* Closes the output; the file then appears under its name. */
 void initiated_output_close(struct initiated_output *found);

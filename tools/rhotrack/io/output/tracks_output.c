@@ -31,10 +31,9 @@ bool tracks_output_path_is_log(const char *path)
     return path && path_ends_with(path, ".lcm");
 }
 
-static struct tracks_output *make_tracks_output(const char *path,
-                                                               struct output output,
-                                                               const struct parameters *parameters,
-                                                               bool with_covariance)
+static struct tracks_output *make_tracks_output(const char *path, struct output output,
+                                                const struct parameters *parameters,
+                                                bool with_covariance)
 {
     struct tracks_output *tracks = must_calloc(1, sizeof *tracks);
 
@@ -58,8 +57,7 @@ struct tracks_output *tracks_output_open(const char *path, const struct paramete
         fail(EXIT_USAGE, "%s: GeoJSON cannot hold covariances (--covariance)", path);
     }
     asterix_track_writer_check(path, with_covariance);
-    tracks =
-        make_tracks_output(path, output_open(path), parameters, with_covariance);
+    tracks = make_tracks_output(path, output_open(path), parameters, with_covariance);
     tracks->map =
         geojson_path_is_geojson(path) ? geojson_open(tracks->output.file, parameters) : NULL;
     return tracks;
@@ -76,8 +74,7 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
              path);
     }
     asterix_track_writer_check(path, with_covariance);
-    return make_tracks_output(path, output_open_in_place(path), parameters,
-                                             with_covariance);
+    return make_tracks_output(path, output_open_in_place(path), parameters, with_covariance);
 }
 
 void tracks_output_add_body_columns(struct tracks_output *tracks, const struct rho_tracker *tracker)
@@ -103,8 +100,9 @@ void tracks_output_flush(struct tracks_output *tracks)
     output_flush(&tracks->output);
 }
 
-static void write_list_message(struct tracks_output *tracks, int64_t time_us,
-                                               const uint8_t *data, size_t size)
+/* Writes a track list to the log or as ASTERIX. */
+static void write_list_message(struct tracks_output *tracks, int64_t time_us, const uint8_t *data,
+                               size_t size)
 {
     struct rho_message_track_list message;
 
@@ -195,8 +193,8 @@ int32_t tracks_output_epoch(void)
     return EPOCH;
 }
 
-void tracks_output_log_message(struct tracks_output *tracks, int64_t time_us,
-                                        const char *channel, const uint8_t *data, size_t size)
+void tracks_output_log_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
+                               const uint8_t *data, size_t size)
 {
     lcm_log_must_write(&tracks->log, tracks->path, time_us, channel, data, size);
 }

@@ -15,7 +15,7 @@ struct zone_events_output zone_events_output_open(const char *path)
 }
 
 void zone_events_output_write(const struct zone_events_output *output,
-                                     const struct rho_zones *zones)
+                              const struct rho_zones *zones)
 {
     for (unsigned i = 0; output->output.file && i < zones->num_events; i++) {
         const struct rho_zone_event *event = &zones->events[i];

@@ -20,7 +20,7 @@ struct zone_events_output zone_events_output_open(const char *path);
 
 /* Writes the events of the zones' last step. */
 void zone_events_output_write(const struct zone_events_output *output,
-                                     const struct rho_zones *zones);
+                              const struct rho_zones *zones);
 void zone_events_output_close(struct zone_events_output *output);
 
 /* Prints the counts on standard error, one line a zone. */

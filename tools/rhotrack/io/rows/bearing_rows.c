@@ -52,8 +52,8 @@ static size_t encode_bearing_scan_part(const struct rows_part *part, uint8_t *bu
     return encode_checked(&message, buffer, field);
 }
 
-static double *put_bearing_scan_cells(double *cells,
-                                                const struct rho_message_bearing_scan *message)
+/* Fills the cells that all rows of the message share; returns them. */
+static double *put_bearing_scan_cells(double *cells, const struct rho_message_bearing_scan *message)
 {
     cells[SENSOR_X_M] = (double)message->sensor_x_m;
     cells[SENSOR_Y_M] = (double)message->sensor_y_m;
@@ -76,11 +76,11 @@ static enum rho_status decode_bearing_scan_to_rows(const uint8_t *data, size_t s
                             .epoch = message.epoch,
                             .scan = message.scan};
 
-    put_bearing_scan_cells(
-        rows_begin_message(rows, out, &key, 0, 1, message.num_bearings), &message);
+    put_bearing_scan_cells(rows_begin_message(rows, out, &key, 0, 1, message.num_bearings),
+                           &message);
     for (int i = 0; i < message.num_bearings; i++) {
-        put_bearing_scan_cells(rows_add_message_row(rows, out, 0),
-                                         &message)[BEARING_RAD] = (double)message.bearing_rad[i];
+        put_bearing_scan_cells(rows_add_message_row(rows, out, 0), &message)[BEARING_RAD] =
+            (double)message.bearing_rad[i];
     }
     return RHO_OK;
 }

@@ -59,6 +59,7 @@ static const char *why_plot_cells_incomplete(const double *cells)
     return NULL;
 }
 
+/* The kind of a plot: with or without height and velocity. */
 static int plot_scan_kind(const double *cells)
 {
     bool has_height = !rows_is_cell_empty(cells[Z_M]);
@@ -97,8 +98,7 @@ static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffe
         .scan = part->scan->head.scan,
         .epoch = part->scan->head.epoch,
         .sensor_id = (int16_t)part->scan->head.sensor_id,
-        .kind = (int8_t)plot_scan_kind(part->count ? rows_part_cells(part, 0)
-                                                                          : head),
+        .kind = (int8_t)plot_scan_kind(part->count ? rows_part_cells(part, 0) : head),
         .part = part->part,
         .num_parts = part->scan->num_parts,
         .sector_from_rad = rows_float_or_zero(head[SECTOR_FROM_RAD]),

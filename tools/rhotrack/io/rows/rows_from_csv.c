@@ -190,8 +190,9 @@ static void fill_missing_radar_place(const struct reading *reading, int32_t sens
     }
 }
 
-static bool read_row_head(const struct reading *reading,
-                                              const struct row_check *check, struct row *row)
+/* Reads the row's times, its sensor and its scan's numbers. */
+static bool read_row_head(const struct reading *reading, const struct row_check *check,
+                          struct row *row)
 {
     const int *at = reading->columns.at;
     const bool has_sensor = reading->file->rows.kind->has_sensor && at[COL_SENSOR_ID] >= 0;

@@ -103,8 +103,8 @@ void rows_from_messages_add_event(struct rows_collection *collection, const char
 
 /* ---- Messages that belong together ---- */
 
-static int compare_scans(const struct rows_message *one,
-                                              const struct rows_message *other)
+/* Order by sensor, epoch, scan and time. */
+static int compare_scans(const struct rows_message *one, const struct rows_message *other)
 {
     int order = rows_compare_int64(one->key.sensor_id, other->key.sensor_id);
 
@@ -153,9 +153,8 @@ static uint64_t lowest_arrival_index(const struct rows_message *messages, size_t
  * Adds the row of a scan itself, which has no measurement, unless an element of the scan, added
  * from index `before` on, has the scan's time. Counts a list without elements.
  */
-static void append_scan_row(struct ordering *ordering,
-                                            const struct rows_message *message, size_t before,
-                                            uint64_t order)
+static void append_scan_row(struct ordering *ordering, const struct rows_message *message,
+                            size_t before, uint64_t order)
 {
     int64_t earliest_us = INT64_MAX;
 

@@ -5,16 +5,14 @@
 
 #define TURN 6.283185307179586
 
-struct rows_geodetic rows_geodetic_open(const struct table *table,
-                                                        const struct rows_kind *kind,
-                                                        const struct parameters *parameters)
+struct rows_geodetic rows_geodetic_open(const struct table *table, const struct rows_kind *kind,
+                                        const struct parameters *parameters)
 {
     bool has_any = kind == &rows_kind_plots || kind == &rows_kind_polar || kind == &rows_kind_truth;
 
-    return (struct rows_geodetic){
-        .kind = kind,
-        .parameters = parameters,
-        .geodetic = has_any ? geodetic_open(table, parameters) : NULL};
+    return (struct rows_geodetic){.kind = kind,
+                                  .parameters = parameters,
+                                  .geodetic = has_any ? geodetic_open(table, parameters) : NULL};
 }
 
 void rows_geodetic_close(struct rows_geodetic *geodetic)
@@ -23,15 +21,13 @@ void rows_geodetic_close(struct rows_geodetic *geodetic)
     geodetic->geodetic = NULL;
 }
 
-bool rows_geodetic_replaces(const struct rows_geodetic *geodetic,
-                                           const struct rows_column *column)
+bool rows_geodetic_replaces(const struct rows_geodetic *geodetic, const struct rows_column *column)
 {
     return geodetic_has_places(geodetic->geodetic) &&
            (column->id == COL_X_M || column->id == COL_Y_M);
 }
 
-static double *cell_of(const struct rows_geodetic *geodetic, double *cells,
-                       enum column_id column)
+static double *cell_of(const struct rows_geodetic *geodetic, double *cells, enum column_id column)
 {
     return &cells[rows_column_index(geodetic->kind, column)];
 }
@@ -47,8 +43,8 @@ static double cell_or(double cell, double otherwise)
     return rows_is_cell_empty(cell) ? otherwise : cell;
 }
 
-static bool fill_place_cells(const struct rows_geodetic *geodetic,
-                             const struct row_check *check, double *cells)
+static bool fill_place_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
+                             double *cells)
 {
     double place_m[3];
     bool has_alt;
@@ -94,7 +90,7 @@ static void put_radar_place_and_sector(const struct rows_geodetic *geodetic,
 }
 
 static struct geodetic_polar read_polar_cells(const struct rows_geodetic *geodetic,
-                                                      int32_t sensor_id, double *cells)
+                                              int32_t sensor_id, double *cells)
 {
     const struct parameters *parameters = geodetic->parameters;
     double sigma_range_m = parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
@@ -124,9 +120,9 @@ static bool are_range_and_angles_in_limits(const struct geodetic_polar *polar)
            fabs(polar->look.elevation_rad) <= half_turn / 2;
 }
 
-static bool turn_polar_cells(
-    const struct rows_geodetic *geodetic, const struct row_check *check,
-    const struct radar_axes *frame, int32_t sensor_id, double *cells)
+/* Turns azimuth and elevation to the local frame. */
+static bool turn_polar_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
+                             const struct radar_axes *frame, int32_t sensor_id, double *cells)
 {
     struct geodetic_polar polar = read_polar_cells(geodetic, sensor_id, cells);
     bool had_elevation = polar.has_elevation;
@@ -148,9 +144,8 @@ static bool turn_polar_cells(
     return true;
 }
 
-bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic,
-                                            const struct row_check *check, int32_t sensor_id,
-                                            double *cells)
+bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
+                              int32_t sensor_id, double *cells)
 {
     const struct radar_axes *frame = NULL;
 
@@ -165,8 +160,7 @@ bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic,
         put_radar_place_and_sector(geodetic, frame, cells);
     }
     return geodetic->kind == &rows_kind_polar
-               ? turn_polar_cells(geodetic, check, frame, sensor_id,
-                                                             cells)
+               ? turn_polar_cells(geodetic, check, frame, sensor_id, cells)
                : !geodetic_has_places(geodetic->geodetic) ||
                      fill_place_cells(geodetic, check, cells);
 }

@@ -23,8 +23,7 @@ static bool is_column_wanted(const struct rows *rows, int index, bool with_covar
         return (column->flags & COLUMN_ALWAYS) || with_covariance;
     }
     for (size_t i = 0; i < rows->count; i++) {
-        if (is_cell_written(column,
-                                                   rows_cells(rows, &rows->list[i])[index])) {
+        if (is_cell_written(column, rows_cells(rows, &rows->list[i])[index])) {
             return true;
         }
     }

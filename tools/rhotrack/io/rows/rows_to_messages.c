@@ -49,6 +49,7 @@ struct named_row {
     size_t row;
 };
 
+/* Order by time, then by track or target, then by row. */
 static int by_time_name_and_row(const void *a, const void *b)
 {
     const struct named_row *one = a, *other = b;
@@ -188,7 +189,7 @@ static bool check_received_fits_scan(struct scan_grouping *grouping, const struc
 
     if (grouping->file->rows.has_received &&
         !row_check_received(&check, row->received_us, scan->head.received_us,
-                                            grouping->file->has_scan, grouping->interval_us)) {
+                            grouping->file->has_scan, grouping->interval_us)) {
         rows_refuse_row(grouping->file, row, "%s", reason);
         return false;
     }
@@ -222,8 +223,7 @@ static bool check_row_fits_scan(struct scan_grouping *grouping, const struct row
  * Time of a scan: with numbers that of its row without a measurement, which may stand anywhere,
  * else of its first row.
  */
-static int64_t scan_time_us(const struct scan_grouping *grouping, size_t first,
-                                                 size_t end)
+static int64_t scan_time_us(const struct scan_grouping *grouping, size_t first, size_t end)
 {
     for (size_t i = first; grouping->file->has_scan && i < end; i++) {
         if (!rows_row_has_measurement(&grouping->file->rows, &grouping->rows[i])) {

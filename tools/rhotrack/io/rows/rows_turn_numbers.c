@@ -42,8 +42,7 @@ static bool may_have_turns(const struct rows_file *file, const struct parameters
                &file->rows, file->rows.list)[rows_column_index(kind, COL_SECTOR_FROM_RAD)]);
 }
 
-void rows_number_turns(struct rows_file *file,
-                                          const struct parameters *parameters)
+void rows_number_turns(struct rows_file *file, const struct parameters *parameters)
 {
     struct antenna_turns *turns;
     double place_m[2];
@@ -56,12 +55,11 @@ void rows_number_turns(struct rows_file *file,
     for (size_t i = 0; i < file->rows.count && goes_on; i++) {
         const struct row *row = &file->rows.list[i];
 
-        goes_on = !plot_place_relative_to_sensor(file, row, parameters, place_m) ||
-                  antenna_turns_add_row(turns, row->sensor_id, row->time_us,
-                                                       place_m[0], place_m[1]);
+        goes_on =
+            !plot_place_relative_to_sensor(file, row, parameters, place_m) ||
+            antenna_turns_add_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
     }
-    if (antenna_turns_find_rules(turns, file->path,
-                                                     parameters->value[PARAMETER_V_MAX_MPS])) {
+    if (antenna_turns_find_rules(turns, file->path, parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {
             struct row *row = &file->rows.list[i];
             const bool has_place = plot_place_relative_to_sensor(file, row, parameters, place_m);

@@ -39,8 +39,7 @@ bool trajectory_row_has_place(const struct trajectory_columns *columns, size_t r
 {
     const struct row_check check = {.columns = &columns->in_file, .row = row};
 
-    return row_has_cell(&check, geodetic_has_places(columns->geodetic) ? COL_LAT_DEG
-                                                                                      : COL_X_M);
+    return row_has_cell(&check, geodetic_has_places(columns->geodetic) ? COL_LAT_DEG : COL_X_M);
 }
 
 static double number_or(const struct columns *columns, size_t row, enum column_id column,

@@ -221,8 +221,8 @@ static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64
 
     while (make_next_frame(reader)) {
         frames_of[reader->frame.num_scans]++;
-        progress_show_by_bytes(&progress, reader->counts.frames,
-                               bearing_reader_position(reader), file_bytes);
+        progress_show_by_bytes(&progress, reader->counts.frames, bearing_reader_position(reader),
+                               file_bytes);
     }
     progress_end(&progress);
     reader->total = reader->counts;
@@ -244,10 +244,10 @@ struct bearing_frame_reader *bearing_frame_reader_open(char *const *paths, int n
 
     reader->keep_going = keep_going;
     reader->tolerance_us = llround(parameters->value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
-    reader->files = merged_scan_files_open(
-        paths, num_paths, parameters,
-        (struct scan_source_options){
-            .kind = RECORD_BEARINGS, .keep_going = keep_going, .known = &reader->known});
+    reader->files = merged_scan_files_open(paths, num_paths, parameters,
+                                           (struct scan_source_options){.kind = RECORD_BEARINGS,
+                                                                        .keep_going = keep_going,
+                                                                        .known = &reader->known});
     for (int i = 0; i < num_paths; i++) {
         bytes += regular_file_size_or_zero(paths[i]);
     }
@@ -286,14 +286,13 @@ uint64_t bearing_reader_position(const struct bearing_frame_reader *reader)
 }
 
 const struct frame_sensor *bearing_reader_sensors(const struct bearing_frame_reader *reader,
-                                                        size_t *count)
+                                                  size_t *count)
 {
     *count = reader->known.count;
     return reader->sensors;
 }
 
-struct bearing_reader_counts
-bearing_reader_counts(const struct bearing_frame_reader *reader)
+struct bearing_reader_counts bearing_reader_counts(const struct bearing_frame_reader *reader)
 {
     return reader->total;
 }

@@ -67,11 +67,10 @@ uint64_t bearing_reader_position(const struct bearing_frame_reader *reader);
 
 /* The sensors of the files, *count of them in the order of sensor_id, valid until the close. */
 const struct frame_sensor *bearing_reader_sensors(const struct bearing_frame_reader *reader,
-                                                        size_t *count);
+                                                  size_t *count);
 
 /* Counts over all frames of the files, read or not. */
-struct bearing_reader_counts
-bearing_reader_counts(const struct bearing_frame_reader *reader);
+struct bearing_reader_counts bearing_reader_counts(const struct bearing_frame_reader *reader);
 
 /* Reports skipped bad rows and incomplete frames, if any, on standard error. */
 void bearing_reader_report(const struct bearing_frame_reader *reader);

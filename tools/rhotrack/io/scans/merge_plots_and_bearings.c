@@ -161,9 +161,8 @@ const struct frame_sensor *merged_inputs_passive_sensors(const struct merged_inp
 uint64_t merged_inputs_bytes_read(const struct merged_inputs *inputs)
 {
     return (inputs->scan_reader ? plot_scan_reader_position(inputs->scan_reader) : 0) +
-           (inputs->bearing_frame_reader
-                ? bearing_reader_position(inputs->bearing_frame_reader)
-                : 0);
+           (inputs->bearing_frame_reader ? bearing_reader_position(inputs->bearing_frame_reader)
+                                         : 0);
 }
 
 uint64_t merged_inputs_total_bytes(const struct merged_inputs *inputs)
@@ -184,8 +183,7 @@ merged_inputs_step_and_plot_counts(const struct merged_inputs *inputs)
         counts.rows_skipped = scans.rows_skipped;
     }
     if (inputs->bearing_frame_reader) {
-        struct bearing_reader_counts frames =
-            bearing_reader_counts(inputs->bearing_frame_reader);
+        struct bearing_reader_counts frames = bearing_reader_counts(inputs->bearing_frame_reader);
 
         counts.frames = frames.frames;
         counts.frames_incomplete = frames.frames_incomplete;

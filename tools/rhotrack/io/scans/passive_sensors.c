@@ -34,10 +34,9 @@ static const char *format_first_naming(const struct known_sensor *known, const c
     return text;
 }
 
-static bool check_new_sensor(const struct passive_sensors *known,
-                                                    const char *path,
-                                                    const struct measurement_row *row,
-                                                    const struct row_check *check)
+/* Checks that there is room for another sensor, and that no other stands at its place. */
+static bool check_new_sensor(const struct passive_sensors *known, const char *path,
+                             const struct measurement_row *row, const struct row_check *check)
 {
     char text[WHERE_BYTES];
 
@@ -61,8 +60,7 @@ static bool check_new_sensor(const struct passive_sensors *known,
 }
 
 bool passive_sensors_check_row(const struct passive_sensors *sensors, const char *path,
-                                     const struct measurement_row *row,
-                                     const struct row_check *check)
+                               const struct measurement_row *row, const struct row_check *check)
 {
     const struct known_sensor *known = find_sensor(sensors, row->sensor_id);
     char text[WHERE_BYTES];
@@ -79,7 +77,7 @@ bool passive_sensors_check_row(const struct passive_sensors *sensors, const char
 }
 
 void passive_sensors_add(struct passive_sensors *known, const char *path,
-                                      const struct measurement_row *row)
+                         const struct measurement_row *row)
 {
     if (!find_sensor(known, row->sensor_id)) {
         known->list[known->count++] =

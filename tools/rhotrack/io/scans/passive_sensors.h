@@ -32,9 +32,8 @@ struct passive_sensors {
  * there may be RHO_MAX_SENSORS. Returns false and sets the reason otherwise.
  */
 bool passive_sensors_check_row(const struct passive_sensors *sensors, const char *path,
-                                     const struct measurement_row *row,
-                                     const struct row_check *check);
+                               const struct measurement_row *row, const struct row_check *check);
 void passive_sensors_add(struct passive_sensors *known, const char *path,
-                                      const struct measurement_row *row);
+                         const struct measurement_row *row);
 
 #endif

@@ -31,16 +31,14 @@ struct plot_scan_reader *plot_scan_reader_open(char *const *paths, int num_paths
 }
 
 struct plot_scan_reader *plot_reader_follow(char *path, const struct parameters *parameters,
-                                                 bool keep_going)
+                                            bool keep_going)
 {
-    return open_reader(
-        &path, 1, parameters,
-        (struct scan_source_options){.keep_going = keep_going, .follow = true});
+    return open_reader(&path, 1, parameters,
+                       (struct scan_source_options){.keep_going = keep_going, .follow = true});
 }
 
-struct plot_scan_reader *
-plot_reader_open_sensorless(char *const *paths, int num_paths,
-                                         const struct parameters *parameters)
+struct plot_scan_reader *plot_reader_open_sensorless(char *const *paths, int num_paths,
+                                                     const struct parameters *parameters)
 {
     return open_reader(paths, num_paths, parameters,
                        (struct scan_source_options){.may_lack_sensor = true});

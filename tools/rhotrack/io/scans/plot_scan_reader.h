@@ -38,15 +38,14 @@ struct plot_scan_reader *plot_scan_reader_open(char *const *paths, int num_paths
 
 /* Opens one CSV file that may grow, or a pipe, which is never waited for. */
 struct plot_scan_reader *plot_reader_follow(char *path, const struct parameters *parameters,
-                                                 bool keep_going);
+                                            bool keep_going);
 
 /*
  * Opens files that may lack a column sensor_id: all plots are then of sensor 0. For pictures,
  * without tracking.
  */
-struct plot_scan_reader *
-plot_reader_open_sensorless(char *const *paths, int num_paths,
-                                         const struct parameters *parameters);
+struct plot_scan_reader *plot_reader_open_sensorless(char *const *paths, int num_paths,
+                                                     const struct parameters *parameters);
 
 /*
  * Reads the next scan, valid until the next call, or returns NULL after the last. Scans come in the

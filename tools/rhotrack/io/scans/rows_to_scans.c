@@ -56,10 +56,8 @@ static struct gathered_scan *find_scan_by_order(struct rows_to_scans *gather, si
                                                                         : NULL;
 }
 
-struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather,
-                                                        int32_t sensor_id,
-                                                        const struct scan_number *number,
-                                                        int64_t time_us)
+struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int32_t sensor_id,
+                                              const struct scan_number *number, int64_t time_us)
 {
     size_t order = scan_numbers_find_scan_index(&gather->numbers, sensor_id, number);
     struct gathered_scan *scan =
@@ -72,9 +70,8 @@ struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather,
                : NULL;
 }
 
-bool rows_to_scans_check_time(const struct rows_to_scans *gather,
-                                       const struct gathered_scan *scan, int64_t time_us,
-                                       const struct row_check *check)
+bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct gathered_scan *scan,
+                              int64_t time_us, const struct row_check *check)
 {
     bool is_within = scan && scan->number.is_given && !gather->has_clock;
     int64_t clock_us = reception_time_or_row_time_us(gather, time_us);
@@ -190,9 +187,8 @@ static bool may_be_preceded_by_new_scan(const struct rows_to_scans *gather,
 static bool goes_out_before(const struct rows_to_scans *gather, const struct gathered_scan *one,
                             const struct gathered_scan *other)
 {
-    return gather->has_clock
-               ? one->begun_us < other->begun_us
-               : gathered_scan_time_us(one) < gathered_scan_time_us(other);
+    return gather->has_clock ? one->begun_us < other->begun_us
+                             : gathered_scan_time_us(one) < gathered_scan_time_us(other);
 }
 
 /* Index of the scan that goes out before all others. */

@@ -82,18 +82,15 @@ void rows_to_scans_set_reception(struct rows_to_scans *gather, int64_t received_
  * The scan in memory that a row belongs to, or NULL where it begins a new one. Valid until the next
  * scan begins or is taken.
  */
-struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather,
-                                                        int32_t sensor_id,
-                                                        const struct scan_number *number,
-                                                        int64_t time_us);
+struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int32_t sensor_id,
+                                              const struct scan_number *number, int64_t time_us);
 
 /*
  * Checks that a row's time does not go back; scan: the scan that the row belongs to, or NULL.
  * Returns false and sets the reason where it does.
  */
-bool rows_to_scans_check_time(const struct rows_to_scans *gather,
-                                       const struct gathered_scan *scan, int64_t time_us,
-                                       const struct row_check *check);
+bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct gathered_scan *scan,
+                              int64_t time_us, const struct row_check *check);
 
 /* Begins a scan at time_us with the sensor, number, bias, sector and line of `heading`. */
 struct gathered_scan *rows_to_scans_begin_scan(struct rows_to_scans *gather,

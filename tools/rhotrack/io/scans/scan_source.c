@@ -35,9 +35,8 @@ struct scan_source {
 /* ---- Rows to scans ---- */
 
 /* Checks that a row has the values that all rows of its scan must share. */
-static bool check_row_fits_scan(const struct scan_source *source,
-                                const struct gathered_scan *scan, const struct measurement_row *row,
-                                const struct row_check *check)
+static bool check_row_fits_scan(const struct scan_source *source, const struct gathered_scan *scan,
+                                const struct measurement_row *row, const struct row_check *check)
 {
     if (!scan || source->turns) {
         return true; /* a turn measures what all its rows measure */
@@ -72,8 +71,7 @@ static bool check_received_fits_scan(const struct rows_to_scans *gather,
 {
     return !scan || !gather->has_clock ||
            row_check_received(check, row->received_us, scan->heard_us,
-                                              row->number.is_given && scan->number.is_given,
-                                              gather->interval_us);
+                              row->number.is_given && scan->number.is_given, gather->interval_us);
 }
 
 static struct gathered_scan *begin_scan_with_heading_of_row(struct scan_source *source,
@@ -120,7 +118,7 @@ static void find_columns(struct scan_source *source, const struct table *table)
         table_fail_at_row(table, TABLE_HEADER, "--follow takes plots, but this file has bearings");
     }
     source->columns = measurement_columns_find(table, source->parameters, source->options.kind,
-                                                   !source->options.may_lack_sensor);
+                                               !source->options.may_lack_sensor);
     source->has_columns = true;
     if (source->columns.in_file.at[COL_RECEIVED_S] >= 0) {
         source->gather.begun_max = FOLLOW_BEGUN_MAX;
@@ -158,10 +156,9 @@ static void process_table_row(struct scan_source *source, const struct table *ta
     }
     if (is_good) {
         number_row_by_turn(source, &row);
-        scan = rows_to_scans_find_scan(&source->gather, row.sensor_id, &row.number,
-                                                 row.time_us);
+        scan = rows_to_scans_find_scan(&source->gather, row.sensor_id, &row.number, row.time_us);
         is_good = rows_to_scans_check_time(&source->gather, source->turns ? NULL : scan,
-                                                    row.time_us, &check) &&
+                                           row.time_us, &check) &&
                   check_received_fits_scan(&source->gather, scan, &row, &check) &&
                   check_row_fits_scan(source, scan, &row, &check) &&
                   check_bearing_sensor_is_fixed(source, &row, &check);
@@ -328,8 +325,7 @@ static bool add_or_refuse_bearing_sensor(struct scan_source *source,
 }
 
 /* Whether the item is of the wanted kind, and of a sensor that is accepted. */
-static bool accept_item(struct scan_source *source,
-                                               const struct rho_scan_assembler_item *item)
+static bool accept_item(struct scan_source *source, const struct rho_scan_assembler_item *item)
 {
     bool is_bearings = item->kind == RHO_SCAN_ASSEMBLER_BEARINGS;
 
@@ -414,6 +410,7 @@ static bool may_have_turns(const struct scan_source *source)
            S_ISREG(status.st_mode);
 }
 
+/* Opens the rows, and finds their columns where the header is known. */
 static void open_row_stream(struct scan_source *source)
 {
     source->stream = table_stream_open(source->path, source->parameters, source->options.keep_going,
@@ -446,16 +443,15 @@ static void find_antenna_turns(struct scan_source *source)
     while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
         if (measurement_row_read(&columns, 0, source->parameters, &row, reason) &&
             row.has_measurement) {
-            goes_on =
-                antenna_turns_add_row(source->turns, row.sensor_id, row.time_us,
-                                                     (double)row.plot.x_m - (double)row.sensor.x_m,
-                                                     (double)row.plot.y_m - (double)row.sensor.y_m);
+            goes_on = antenna_turns_add_row(source->turns, row.sensor_id, row.time_us,
+                                            (double)row.plot.x_m - (double)row.sensor.x_m,
+                                            (double)row.plot.y_m - (double)row.sensor.y_m);
         }
     }
     measurement_columns_free(&columns);
     table_stream_close(stream);
-    if (!antenna_turns_find_rules(
-            source->turns, source->path, source->parameters->value[PARAMETER_V_MAX_MPS])) {
+    if (!antenna_turns_find_rules(source->turns, source->path,
+                                  source->parameters->value[PARAMETER_V_MAX_MPS])) {
         antenna_turns_free(source->turns);
         source->turns = NULL;
     }
@@ -495,9 +491,8 @@ static void open_log(struct scan_source *source)
                        is_plots || log_scans_kinds(source->path) == LOG_HAS_BEARINGS, is_plots);
 }
 
-struct scan_source *scan_source_open(const char *path,
-                                                 const struct parameters *parameters,
-                                                 struct scan_source_options options)
+struct scan_source *scan_source_open(const char *path, const struct parameters *parameters,
+                                     struct scan_source_options options)
 {
     struct scan_source *source = must_calloc(1, sizeof *source);
 
@@ -514,6 +509,7 @@ struct scan_source *scan_source_open(const char *path,
     return source;
 }
 
+/* Closes the rows, with the scans gathered and the turns found so far. */
 static void close_rows(struct scan_source *source)
 {
     rows_to_scans_free(&source->gather);

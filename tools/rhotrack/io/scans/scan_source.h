@@ -16,10 +16,10 @@
 struct scan_source;
 
 struct scan_source_options {
-    enum record_kind kind; /* kind of scans wanted: a log may have both */
-    bool keep_going;       /* bad rows are skipped and counted, not an error */
-    bool follow;           /* the file may grow; a log or bearings are refused, exit 2 */
-    bool may_lack_sensor;  /* plots without a column sensor_id are of sensor 0 */
+    enum record_kind kind;         /* kind of scans wanted: a log may have both */
+    bool keep_going;               /* bad rows are skipped and counted, not an error */
+    bool follow;                   /* the file may grow; a log or bearings are refused, exit 2 */
+    bool may_lack_sensor;          /* plots without a column sensor_id are of sensor 0 */
     struct passive_sensors *known; /* for bearings: the sensors of all files */
 };
 
@@ -27,9 +27,8 @@ struct scan_source_options {
  * Opens a file; plot_scan_reader.h and bearing_frame_reader.h describe its content. Errors as
  * `rhotrack: FILE:LINE: what is wrong`, exit 2. The path must outlive the source.
  */
-struct scan_source *scan_source_open(const char *path,
-                                                 const struct parameters *parameters,
-                                                 struct scan_source_options options);
+struct scan_source *scan_source_open(const char *path, const struct parameters *parameters,
+                                     struct scan_source_options options);
 
 /* Reads the next scan. Returns false after the last, and where a followed file has no more yet. */
 bool scan_source_next(struct scan_source *source, struct sensor_scan *scan);

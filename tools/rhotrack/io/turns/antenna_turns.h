@@ -23,15 +23,14 @@ struct antenna_turns *antenna_turns_start(void);
  * Collects a row for the search of rules, in the order of time: a plot's place relative to its
  * sensor. Returns false once there are enough rows.
  */
-bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id,
-                                          int64_t time_us, double x_m, double y_m);
+bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+                           double x_m, double y_m);
 
 /*
  * Finds the rule of each sensor, and reports each on standard error, also for sensors whose scans
  * cannot be told. Returns false where no sensor has a rule.
  */
-bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path,
-                                                  double v_max_mps);
+bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, double v_max_mps);
 
 /*
  * Number of the turn that a row belongs to, from 1; 0 where its sensor has no rule. A sensor's

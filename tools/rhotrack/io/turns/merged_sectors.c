@@ -126,10 +126,9 @@ static void drop_oldest_turn(struct reading *reading)
     }
 }
 
-static void begin_turn(struct reading *reading,
-                                                struct turning_sensor *turning,
-                                                const struct rho_scan *scan,
-                                                const struct rho_sensor *sensor)
+/* Begins a turn, unless it lies before the turns that are kept. */
+static void begin_turn(struct reading *reading, struct turning_sensor *turning,
+                       const struct rho_scan *scan, const struct rho_sensor *sensor)
 {
     struct revolutions *revolutions = &reading->revolutions;
     struct revolution turn = {.scan = *scan, .has_sensor = sensor};

@@ -66,8 +66,7 @@ static double azimuth_concentration(const struct fitted *fitted, double rate_rad
 }
 
 /* Samples evenly spaced plots of the first SPAN_S seconds; returns how many plots the span has. */
-static size_t sample_first_span(const struct turn_plot *plots, size_t count,
-                                                    struct fitted *fitted)
+static size_t sample_first_span(const struct turn_plot *plots, size_t count, struct fitted *fitted)
 {
     size_t num = 0, stride;
 
