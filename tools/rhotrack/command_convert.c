@@ -24,8 +24,6 @@
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
 
-/* ---- Which way ---- */
-
 static bool may_be_regular_file(const char *path)
 {
     struct stat status;
@@ -65,8 +63,6 @@ static void check_output_format_differs(const char *input, const char *output, b
     }
 }
 
-/* ---- CSV to log ---- */
-
 static void write_messages_to_log(struct message_source *source, const struct command_line *line)
 {
     const char *path = line->arguments[1];
@@ -96,8 +92,6 @@ static void convert_table_to_log(const struct command_line *line)
     message_source_report_skipped(source);
     message_source_close(source);
 }
-
-/* ---- ASTERIX to CSV ---- */
 
 static void convert_asterix_plots_to_csv(const struct command_line *line)
 {
@@ -135,8 +129,6 @@ static void convert_asterix_tracks_to_csv(const struct command_line *line)
     table_free(table);
 }
 
-/* ---- Tracks to ASTERIX ---- */
-
 /* Writes a log's track lists as ASTERIX CAT062 records; other messages are counted and reported. */
 static void convert_tracks_to_asterix(const struct command_line *line)
 {
@@ -169,8 +161,6 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     message_source_report_skipped(source);
     message_source_close(source);
 }
-
-/* ---- Log to CSV ---- */
 
 struct reading {
     const struct command_line *line;
@@ -315,8 +305,6 @@ static void convert_log_to_csv(const struct command_line *line)
     rows_from_messages_free(&reading.collection);
     lcm_log_close(log);
 }
-
-/* ---- To GeoJSON ---- */
 
 static void convert_tracks_to_geojson(const struct command_line *line)
 {

@@ -23,8 +23,6 @@ struct initiation_run {
     int64_t wall_us;
 };
 
-/* ---- The batch ---- */
-
 static void push_scan_to_initiator(struct initiation_run *batch, const struct rho_scan *scan,
                                    const struct rho_sensor *sensor)
 {
@@ -47,21 +45,6 @@ static void push_scan_to_initiator(struct initiation_run *batch, const struct rh
     batch->plots_no_room += scan->num_plots - held.num_plots;
 }
 
-/*
- * Pushes the last scans that fit the initiation window; sectors of a turn are joined to one scan.
- */
-static void push_last_scans(struct initiation_run *batch, struct plot_scan_reader *reader)
-{
-    struct revolutions revolutions = revolutions_read_last(reader, batch->initiator->config.scans);
-
-    for (size_t i = 0; i < revolutions.count; i++) {
-        const struct revolution *turn = &revolutions.list[i];
-
-        push_scan_to_initiator(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
-    }
-    revolutions_free(&revolutions);
-}
-
 /* Reads the batch, and searches it by kernel. */
 static void search_batch_by_kernel(struct initiation_run *batch, const struct command_line *line)
 {
@@ -75,7 +58,15 @@ static void search_batch_by_kernel(struct initiation_run *batch, const struct co
                  "initiator");
     reader = plot_scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
                                    line->keep_going);
-    push_last_scans(batch, reader);
+    /* the last scans that fit the initiation window; sectors of a turn are joined to one scan */
+    struct revolutions revolutions = revolutions_read_last(reader, batch->initiator->config.scans);
+
+    for (size_t i = 0; i < revolutions.count; i++) {
+        const struct revolution *turn = &revolutions.list[i];
+
+        push_scan_to_initiator(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
+    }
+    revolutions_free(&revolutions);
     start_us = monotonic_clock_us();
     must_succeed(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH), "initiator");
     batch->wall_us += monotonic_clock_us() - start_us;
@@ -90,8 +81,6 @@ static void search_batch_by_kernel(struct initiation_run *batch, const struct co
     }
     plot_scan_reader_close(reader);
 }
-
-/* ---- What it found ---- */
 
 static void write_found_tracks(const struct initiation_run *batch, const char *path)
 {

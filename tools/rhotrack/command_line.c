@@ -71,8 +71,6 @@ static const char *option_name_at(size_t index)
     return index < NUM_OPTIONS ? options[index].name : NULL;
 }
 
-/* ---- Help ---- */
-
 void command_line_print_help(const struct command *command, FILE *file)
 {
     fprintf(file, "Usage: rhotrack %s %s\n\n%s\nOptions:\n", command->name, command->usage,
@@ -101,8 +99,6 @@ static _Noreturn void print_help_and_exit(const struct command *command)
     output_close(&output);
     exit(0);
 }
-
-/* ---- Values of options ---- */
 
 static uint64_t parse_whole_number(const char *option, const char *text, uint64_t min, uint64_t max)
 {
@@ -257,8 +253,6 @@ static void store_option(struct command_line *line, char letter, char *argument)
         }
     }
 }
-
-/* ---- The whole line ---- */
 
 /*
  * Fills getopt_long's table with the options of all commands: an option of another command then

@@ -48,8 +48,6 @@ struct player {
     struct scan_interval_hint plots; /* scan intervals of the plots in the first pass */
 };
 
-/* ---- Time ---- */
-
 /* Whether the time of the playback is over, or a signal has come. */
 static bool is_playback_stopped(const struct player *player)
 {
@@ -102,8 +100,6 @@ static void wait_for_event_time(struct player *player, int64_t utime)
             fmax(player->lag_max_s, (double)(monotonic_ns() - deadline_ns) / NS_PER_S);
     }
 }
-
-/* ---- What goes on from pass to pass ---- */
 
 static struct channel *find_or_add_channel(struct player *player, const char *name)
 {
@@ -184,14 +180,6 @@ static const uint8_t *adapt_message_to_pass(struct player *player,
     return player->buffer;
 }
 
-/* ---- Sending ---- */
-
-static void send_event(struct player *player, const struct message_event *event)
-{
-    player->skipped += !publish_send_message(player->transport, event->channel,
-                                             adapt_message_to_pass(player, event), event->size);
-}
-
 static struct message_source *open_input_files_as_messages(const struct command_line *line)
 {
     return message_source_open(line->arguments, line->num_arguments, &line->parameters,
@@ -211,7 +199,9 @@ static void play_pass(struct player *player, struct message_source *source)
         record_first_pass_event(player, &event);
         wait_for_event_time(player, event.utime);
         if (!is_playback_stopped(player)) {
-            send_event(player, &event);
+            player->skipped +=
+                !publish_send_message(player->transport, event.channel,
+                                      adapt_message_to_pass(player, &event), event.size);
         }
     }
     message_source_report_skipped(source);
@@ -219,8 +209,6 @@ static void play_pass(struct player *player, struct message_source *source)
     player->passes++;
     player->shift_us = pass_duration_us(player) * (double)player->passes;
 }
-
-/* ---- Epochs ---- */
 
 /*
  * True where the header of a CSV file (its first line that is not a comment) has a column epoch.

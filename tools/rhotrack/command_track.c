@@ -35,8 +35,6 @@ struct tracking {
     int64_t sum_us, max_us;
 };
 
-/* ---- Steps ---- */
-
 /* Gives a sensor's description to the tracker; called before each of its scans, as it may move. */
 static void set_sensor_of_tracker(struct tracking *tracking, const struct rho_sensor *sensor)
 {
@@ -151,8 +149,6 @@ static void step_and_write_all_inputs(struct tracking *tracking, struct merged_i
     progress_end(&progress);
 }
 
-/* ---- A file that grows ---- */
-
 static volatile sig_atomic_t is_stopped;
 
 static void on_stop_signal(int number)
@@ -253,8 +249,6 @@ static const char *follow_input(struct tracking *tracking, struct merged_inputs 
     }
     return why;
 }
-
-/* ---- What it comes to ---- */
 
 static double mean_step_us(const struct tracking *tracking,
                            const struct merged_inputs_step_and_plot_counts *counts)
@@ -461,8 +455,6 @@ static void open_pipeline(struct tracking *tracking, const struct merged_inputs 
     }
     check_and_set_passive_sensors(tracking, inputs, parameters);
 }
-
-/* ---- The command ---- */
 
 static void check_clutter_map_is_separate(const struct command_line *line)
 {

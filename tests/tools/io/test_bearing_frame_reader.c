@@ -108,8 +108,6 @@ static void assert_frames(struct given *given, const char *const *expected)
     assert_string_equal(next_frame_as_text(given), "end");
 }
 
-/* ---- scans and frames ------------------------------------------------------------------------ */
-
 static void scans_of_one_time_form_a_frame_sorted_by_sensor(void **state)
 {
     struct given given = open_reader_of_text(HEADER "0,7,0,0,1\n0,7,0,0,1.5\n0,3,90,0,2\n"
@@ -174,8 +172,6 @@ static void rows_within_scan_interval_form_one_scan(void **state)
     assert_frames(&given, (const char *[]){"1000: 1(1) 2(1)", "end"});
     close_and_delete_files(&given);
 }
-
-/* ---- tolerance, missing sensors -------------------------------------------------------------- */
 
 static const char late_text[] = HEADER "0,1,0,0,1\n0.05,2,9,0,1\n1,1,0,0,1\n1.050001,2,9,0,1\n";
 
@@ -264,8 +260,6 @@ static void frames_that_lack_sensors_are_counted(void **state)
     close_and_delete_files(&given);
 }
 
-/* ---- files ----------------------------------------------------------------------------------- */
-
 static void several_files_are_merged_by_time(void **state)
 {
     struct given given = given_file_with(HEADER "0,1,0,0,1\n10,1,0,0,1\n20,1,0,0,1\n");
@@ -342,8 +336,6 @@ static void files_of_bearings_are_recognised_by_their_header(void **state)
     close_and_delete_files(&empty);
     close_and_delete_files(&both);
 }
-
-/* ---- compared with the library's live frames ------------------------------------------------- */
 
 #define LOOKS 300
 

@@ -35,8 +35,6 @@ static struct sent sent[MAX_MESSAGES];
 static size_t num_sent;
 static struct random dice;
 
-/* ---- random contents of messages ------------------------------------------------------------- */
-
 static uint64_t random_number_below(uint64_t n)
 {
     return random_below(&dice, n);
@@ -291,8 +289,6 @@ static void add_sent_track_list(int sensor_id, int32_t scan, int64_t utime)
     }
 }
 
-/* ---- messages to a CSV file and back --------------------------------------------------------- */
-
 /* Writes the messages as a CSV file, in an order that a network may deliver them in. */
 static void write_sent_messages_as_csv(const char *path, const struct rows_kind *kind,
                                        bool is_shuffled)
@@ -401,8 +397,6 @@ static void parts_in_any_order_are_written_in_the_right_order(void **state)
     check_round_trip(ROWS_POLAR, add_sent_polar_scan, true);
     check_round_trip(ROWS_TRACKS, add_sent_track_list, true);
 }
-
-/* ---- rows that form a scan ------------------------------------------------------------------- */
 
 static void write_text(char *path, const char *text)
 {
@@ -536,8 +530,6 @@ static void a_track_id_repeated_at_one_time_begins_a_new_list(void **state)
     unlink(path);
 }
 
-/* ---- several files, bad rows, parts ---------------------------------------------------------- */
-
 static void files_are_merged_by_time(void **state)
 {
     char first[40], second[40], third[48], *paths[] = {first, second, third};
@@ -603,8 +595,6 @@ static void messages_of_parts_keep_the_order_of_rows(void **state)
     message_source_close(source);
     unlink(path);
 }
-
-/* ---- messages that are counted or refused ---------------------------------------------------- */
 
 static void rows_from_messages_counts_doubles_and_refuses_bad_messages(void **state)
 {

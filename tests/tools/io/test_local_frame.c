@@ -18,8 +18,6 @@
 #define DEG_RAD (3.14159265358979323846264338328L / 180)
 #define PI 3.14159265358979323846
 
-/* ---- comparison without PROJ: ECEF and a rotation, from the textbook ------------------------- */
-
 static void ecef_of_geodetic(const double geodetic[3], long double ecef_m[3])
 {
     const long double a = 6378137.0L, f = 1 / 298.257223563L, e2 = f * (2 - f);
@@ -75,8 +73,6 @@ static struct local_frame *open_frame_at(const double origin[3])
 {
     return local_frame_open(origin[0], origin[1], origin[2]);
 }
-
-/* ---- one local frame ------------------------------------------------------------------------- */
 
 /* Example of IOGP Guidance Note 7-2, EPSG method 9837, printed to a millimetre. */
 static void the_example_of_epsg_9837_is_reproduced(void **state)
@@ -170,8 +166,6 @@ static void at_height_finds_the_geodetic_place(void **state)
     local_frame_close(frame);
 }
 
-/* ---- from one local frame to another --------------------------------------------------------- */
-
 /*
  * For small differences in longitude the convergence is sin(latitude) times the difference: seen
  * from a western sensor, true north at an eastern one is turned.
@@ -210,8 +204,6 @@ static void conversion_between_frames_keeps_distances(void **state)
     local_frame_close(one);
     local_frame_close(other);
 }
-
-/* ---- slant range and height of a radar ------------------------------------------------------- */
 
 /* A known place as a radar sees it: range and azimuth by the textbook formulas. */
 static void check_place_from_range_and_height(const double radar[3], const double target[3])

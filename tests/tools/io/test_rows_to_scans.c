@@ -56,8 +56,6 @@ static void take_row(struct rows_to_scans *gather, const struct test_row *row, i
     }
 }
 
-/* ---- the reference with all rows in memory --------------------------------------------------- */
-
 static struct whole whole[ROWS];
 static size_t num_whole;
 
@@ -113,8 +111,6 @@ static void sort_reference_by_time(void)
         whole[at] = scan;
     }
 }
-
-/* ---- the tested grouping compared with the reference ----------------------------------------- */
 
 /* Completed scans equal the next scans of the reference. */
 static void check_completed_scans(struct rows_to_scans *gather, bool all, size_t *next)

@@ -17,20 +17,15 @@ static size_t *find_identity_slot(const struct identity_numbers *identities, int
     return &identities->slots[at];
 }
 
-static void double_slots_and_rehash(struct identity_numbers *identities)
-{
-    free(identities->slots);
-    identities->num_slots = identities->num_slots == 0 ? 64 : 2 * identities->num_slots;
-    identities->slots = must_calloc(identities->num_slots, sizeof *identities->slots);
-    for (size_t i = 0; i < identities->count; i++) {
-        *find_identity_slot(identities, identities->ids[i]) = i + 1;
-    }
-}
-
 size_t identity_numbers_find_or_add(struct identity_numbers *identities, int32_t id)
 {
     if (2 * identities->count >= identities->num_slots) {
-        double_slots_and_rehash(identities);
+        free(identities->slots);
+        identities->num_slots = identities->num_slots == 0 ? 64 : 2 * identities->num_slots;
+        identities->slots = must_calloc(identities->num_slots, sizeof *identities->slots);
+        for (size_t i = 0; i < identities->count; i++) {
+            *find_identity_slot(identities, identities->ids[i]) = i + 1;
+        }
     }
     size_t *slot = find_identity_slot(identities, id);
     if (*slot == 0) {

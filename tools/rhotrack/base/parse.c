@@ -140,8 +140,6 @@ const char *parse_int32_or_give_reason(const char *cell, int32_t *value)
     return NULL;
 }
 
-/* ---- ISO 8601 ---- */
-
 /* Days from 1970-01-01 to a date of the Gregorian calendar. */
 static int64_t days_since_1970(int year, int month, int day)
 {

@@ -8,8 +8,6 @@
 #include "evaluation/evaluation_state.h"
 #include "evaluation/gospa.h"
 
-/* ---- identities ---- */
-
 /* Index of the target with this id in e->targets; a new target starts its life at time_us. */
 static size_t find_or_add_target(struct evaluation *e, int32_t id, int64_t time_us)
 {
@@ -38,8 +36,6 @@ static size_t find_or_add_track(struct evaluation *e, int32_t id)
     }
     return number;
 }
-
-/* ---- one pair ---- */
 
 static double norm(double x, double y, double z)
 {
@@ -116,8 +112,6 @@ static void record_paired_track(struct target_life *life, size_t track,
     scan->fragments += is_fragment;
     life->track = track;
 }
-
-/* ---- one time ---- */
 
 /*
  * Sums of squared velocity errors and of NEES over the pairs at one time, and how many pairs have a
@@ -227,8 +221,6 @@ void evaluation_add_time(struct evaluation *e, int64_t time_us,
     e->scans[e->num_scans++] = scan;
     free(track_of);
 }
-
-/* ---- begin and end ---- */
 
 struct evaluation *evaluation_start(double cutoff_m)
 {

@@ -12,8 +12,6 @@
 #include "evaluation/evaluation_state.h"
 #include "io/csv/tracks_writer.h"
 
-/* ---- text ---- */
-
 static void print_targets(const struct evaluation *e, FILE *file)
 {
     size_t count;
@@ -101,8 +99,6 @@ void evaluation_print(const struct evaluation *e, bool by_target)
     output_close(&output);
 }
 
-/* ---- JSON ---- */
-
 static cJSON *figures_json(const struct evaluation_figures *figures)
 {
     cJSON *object = cJSON_CreateObject();
@@ -157,8 +153,6 @@ void evaluation_print_json(const struct evaluation *e)
     cJSON_AddItemToObject(object, "over_time", figures_over_time_json(e));
     json_print_and_delete(object);
 }
-
-/* ---- CSV ---- */
 
 static void write_time_row(FILE *file, const struct evaluation_scan *scan)
 {

@@ -25,8 +25,6 @@ struct points {
     bool has_z, has_vz;
 };
 
-/* ---- reading ---- */
-
 static struct evaluation_point point_from_row(const struct trajectory_row *path)
 {
     return (struct evaluation_point){
@@ -91,8 +89,6 @@ static void zero_uncompared_heights(struct points *points, bool compares_z, bool
     }
 }
 
-/* ---- tracks at other times than the truth's ---- */
-
 /*
  * A track's point extrapolated with its own velocity to a nearby time; without a velocity only the
  * time is changed.
@@ -141,8 +137,6 @@ static void extrapolate_tracks(struct points *tracks, const struct points *truth
     free(tracks->list);
     *tracks = aligned;
 }
-
-/* ---- time by time ---- */
 
 /* Index one past the last point from `from` on whose time is at most time_us plus 1 ms. */
 static size_t index_past_points_up_to_time(const struct points *points, size_t first,

@@ -23,8 +23,6 @@ struct hough_search {
     int64_t wall_us;
 };
 
-/* ---- The batch ---- */
-
 static void read_last_revolutions(struct hough_batch *batch, const struct command_line *line)
 {
     struct plot_scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
@@ -38,8 +36,6 @@ static void read_last_revolutions(struct hough_batch *batch, const struct comman
     hough_batch_report_beyond(batch);
     plot_scan_reader_close(reader);
 }
-
-/* ---- The search ---- */
 
 static void warn_of_dropped_votes(const struct rho_hough_result *result)
 {
@@ -101,8 +97,6 @@ static void search_batch_for_peaks(struct hough_search *search, const struct com
     warn_of_dropped_votes(&search->result);
 }
 
-/* ---- What it found ---- */
-
 static double peak_votes(const struct rho_accumulator_peak *peak)
 {
     return round(1e6 * peak->votes / RHO_HOUGH_VOTE) / 1e6;
@@ -145,15 +139,6 @@ static void write_found_tracks(const struct hough_search *search, const char *pa
     initiated_output_close(found);
 }
 
-static void add_peak_votes_json(cJSON *object, const struct hough_search *search)
-{
-    cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
-
-    for (uint32_t i = 0; i < search->result.num_peaks; i++) {
-        cJSON_AddItemToArray(list, cJSON_CreateNumber(peak_votes(&search->peaks[i])));
-    }
-}
-
 static void print_search_json(const struct hough_search *search, enum method method)
 {
     const struct rho_hough_result *result = &search->result;
@@ -169,7 +154,11 @@ static void print_search_json(const struct hough_search *search, enum method met
     cJSON_AddNumberToObject(object, "pairs", result->pairs);
     cJSON_AddNumberToObject(object, "candidates", result->candidates);
     cJSON_AddNumberToObject(object, "votes", result->votes);
-    add_peak_votes_json(object, search);
+    cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
+
+    for (uint32_t i = 0; i < search->result.num_peaks; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(peak_votes(&search->peaks[i])));
+    }
     cJSON_AddNumberToObject(object, "tracks", result->num_peaks);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *search->hough);
     cJSON_AddNumberToObject(object, "wall_us", (double)search->wall_us);

@@ -22,8 +22,6 @@ static enum rho_status search_passive_batch(void *object)
     return rho_passive_search(object);
 }
 
-/* ---- What it found ---- */
-
 static void write_found_tracks(const struct rho_passive *passive, int64_t time_us, const char *path)
 {
     struct initiated_output *found = initiated_output_open(path);
@@ -63,16 +61,6 @@ static void add_track_hits_json(cJSON *object, const struct rho_passive *passive
                           sort_descending_into_json_list(hits, passive->num_tracks));
 }
 
-/* Score margins of candidates, without the tracks. */
-static void add_score_margins_json(cJSON *object, const struct rho_passive *passive)
-{
-    cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
-
-    for (int i = 0; i < passive->num_tracks; i++) {
-        cJSON_AddItemToArray(list, cJSON_CreateNumber(1e-3 * passive->tracks[i].margin_mnat));
-    }
-}
-
 static void print_search_json(const struct rho_passive *passive, const struct last_bearings *batch)
 {
     const struct rho_passive_work *work = &passive->work;
@@ -85,7 +73,12 @@ static void print_search_json(const struct rho_passive *passive, const struct la
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
     add_track_hits_json(object, passive);
     cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
-    add_score_margins_json(object, passive);
+    /* Score margins of candidates, without the tracks. */
+    cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
+
+    for (int i = 0; i < passive->num_tracks; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(1e-3 * passive->tracks[i].margin_mnat));
+    }
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
     cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);

@@ -20,8 +20,6 @@ static enum rho_status search_paper_batch(void *object)
     return rho_passive_paper_search(object);
 }
 
-/* ---- What it found ---- */
-
 static void write_found_tracks(const struct rho_passive_paper *paper, int64_t time_us,
                                const char *path)
 {
@@ -48,18 +46,6 @@ static void write_found_tracks(const struct rho_passive_paper *paper, int64_t ti
     initiated_output_close(found);
 }
 
-static void add_line_votes_json(cJSON *object, const struct rho_passive_paper *paper)
-{
-    int votes[RHO_MAX_PASSIVE_LINES];
-
-    for (int i = 0; i < paper->num_lines; i++) {
-        votes[i] = paper->lines[i].votes;
-    }
-    cJSON_AddNumberToObject(object, "votes", paper->work.votes);
-    cJSON_AddItemToObject(object, "peak_votes",
-                          sort_descending_into_json_list(votes, paper->num_lines));
-}
-
 static void print_search_json(const struct rho_passive_paper *paper,
                               const struct last_bearings *batch)
 {
@@ -71,7 +57,14 @@ static void print_search_json(const struct rho_passive_paper *paper,
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_line_votes_json(object, paper);
+    int votes[RHO_MAX_PASSIVE_LINES];
+
+    for (int i = 0; i < paper->num_lines; i++) {
+        votes[i] = paper->lines[i].votes;
+    }
+    cJSON_AddNumberToObject(object, "votes", paper->work.votes);
+    cJSON_AddItemToObject(object, "peak_votes",
+                          sort_descending_into_json_list(votes, paper->num_lines));
     cJSON_AddNumberToObject(object, "tracks", paper->num_lines);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *paper);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);

@@ -10,8 +10,6 @@
 #include "io/scans/plot_scan_reader.h"
 #include "picture/map_page_parts.h"
 
-/* ---- arrays of numbers, as the page's script reads them: little-endian, in base64 ---- */
-
 struct bytes {
     uint8_t *data;
     size_t count, capacity;
@@ -71,8 +69,6 @@ static void write_and_free_base64_array(FILE *file, const char *name, struct byt
     fprintf(file, "</script>\n");
     free(bytes->data);
 }
-
-/* ---- fates of plots ---- */
 
 /*
  * share of unmatched claims that is tolerated without a warning: rows of late scans may have
@@ -217,8 +213,6 @@ static void warn_of_unmatched_claims(const struct claims *claims)
                 unmatched, claims->count);
     }
 }
-
-/* ---- the page's arrays ---- */
 
 static double seconds_since(int64_t time_us, int64_t zero_us)
 {

@@ -120,24 +120,19 @@ static void add_points_of_table(struct picture_data *data, struct plot_points *p
     }
 }
 
-/*
- * Keeps a table of tracks: errors in its rows may be found only when they are compared with the
- * truth.
- */
-static void keep_track_table(struct picture_data *data, struct table *table)
-{
-    data->track_tables =
-        must_make_room_for_one(data->track_tables, data->num_track_tables,
-                               &data->track_tables_capacity, sizeof(struct table *));
-    data->track_tables[data->num_track_tables++] = table;
-}
-
 static void add_and_consume_table(struct picture_data *data, struct table *table,
                                   const struct parameters *parameters)
 {
     if (table_find_column(table, "track_id") >= 0) {
         add_points_of_table(data, &data->tracks, table, parameters);
-        keep_track_table(data, table);
+        /*
+         * Keeps a table of tracks: errors in its rows may be found only when they are compared with
+         * the truth.
+         */
+        data->track_tables =
+            must_make_room_for_one(data->track_tables, data->num_track_tables,
+                                   &data->track_tables_capacity, sizeof(struct table *));
+        data->track_tables[data->num_track_tables++] = table;
         return;
     }
     /* plots of a simulated scene have a column target_id as well */
@@ -173,19 +168,6 @@ static void add_points_of_file(struct picture_data *data, const char *path,
     }
 }
 
-/* ---- bearings ---- */
-
-static void list_bearing_sensors(struct plot_rays *rays, const struct bearing_frame_reader *reader)
-{
-    const struct frame_sensor *sensors = bearing_reader_sensors(reader, &rays->num_sensors);
-    rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
-    for (size_t i = 0; i < rays->num_sensors; i++) {
-        rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
-                                               .x_m = (double)sensors[i].x_m,
-                                               .y_m = (double)sensors[i].y_m};
-    }
-}
-
 static void add_rays_of_scan(struct plot_rays *rays, const struct rho_bearing_scan *scan,
                              double length_m)
 {
@@ -212,7 +194,13 @@ static void read_all_bearings(struct plot_rays *rays, char *const *paths, int nu
     struct bearing_frame_reader *reader =
         bearing_frame_reader_open(paths, num_paths, parameters, false);
     const struct rho_frame *frame;
-    list_bearing_sensors(rays, reader);
+    const struct frame_sensor *sensors = bearing_reader_sensors(reader, &rays->num_sensors);
+    rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
+    for (size_t i = 0; i < rays->num_sensors; i++) {
+        rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
+                                               .x_m = (double)sensors[i].x_m,
+                                               .y_m = (double)sensors[i].y_m};
+    }
     rays->list = must_calloc(bearing_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
     while ((frame = bearing_frame_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
@@ -222,8 +210,6 @@ static void read_all_bearings(struct plot_rays *rays, char *const *paths, int nu
     }
     bearing_frame_reader_close(reader);
 }
-
-/* ---- all files ---- */
 
 static int by_id_and_time(const void *a, const void *b)
 {

@@ -14,8 +14,6 @@
 #define RING_POINTS 144
 #define MARKER_PIXELS 14.0
 
-/* ---- the visible area ---- */
-
 struct map_box map_box_empty(void)
 {
     return (struct map_box){INFINITY, -INFINITY, INFINITY, -INFINITY};
@@ -53,19 +51,14 @@ static bool is_inside_box(const struct map_box *box, double x_m, double y_m)
     return x_m > box->x_min_m && x_m < box->x_max_m && y_m > box->y_min_m && y_m < box->y_max_m;
 }
 
-static void add_box_margin(struct map_box *box)
-{
-    if (!(box->x_min_m <= box->x_max_m)) {
-        map_box_include(box, 0.0, 0.0);
-    }
-    const double margin_m = fmax(MARGIN_MIN_M, MARGIN * longer_side_m(box));
-    map_box_include(box, box->x_min_m - margin_m, box->y_min_m - margin_m);
-    map_box_include(box, box->x_max_m + margin_m, box->y_max_m + margin_m);
-}
-
 struct map map_start(const struct picture *picture, struct map_box box)
 {
-    add_box_margin(&box);
+    if (!(box.x_min_m <= box.x_max_m)) {
+        map_box_include(&box, 0.0, 0.0);
+    }
+    const double margin_m = fmax(MARGIN_MIN_M, MARGIN * longer_side_m(&box));
+    map_box_include(&box, box.x_min_m - margin_m, box.y_min_m - margin_m);
+    map_box_include(&box, box.x_max_m + margin_m, box.y_max_m + margin_m);
     const double unit_m = longer_side_m(&box) > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     const char *unit = unit_m > 1.0 ? "km" : "m";
     fprintf(picture->script,
@@ -81,8 +74,6 @@ struct map map_start(const struct picture *picture, struct map_box box)
                                  (picture->height - AXES_PIXELS) / (box.y_max_m - box.y_min_m)),
                         .box = box};
 }
-
-/* ---- points ---- */
 
 void map_write_point(const struct map *map, const struct plot_point *point, int64_t zero_us)
 {
@@ -158,8 +149,6 @@ size_t map_points_between_markers(const struct map *map, const struct plot_point
     const double markers = fmax(1.0, pixels / MARKER_PIXELS);
     return (size_t)fmax(1.0, ceil((double)path->count / markers));
 }
-
-/* ---- radars ---- */
 
 double map_round_down_to_1_2_5(double value)
 {

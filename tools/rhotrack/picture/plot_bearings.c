@@ -8,8 +8,6 @@
 #define RAYS_MAX 6000       /* most rays drawn; more are sampled */
 #define RAYS_CROWDED 2000.0 /* number of rays from which they are drawn most transparent */
 
-/* ---- the visible area ---- */
-
 /* Box of sensors, plots and truth; without plots and truth also of the rays' ends. */
 static struct map_box map_box_of_data(const struct picture_data *data)
 {
@@ -26,8 +24,6 @@ static struct map_box map_box_of_data(const struct picture_data *data)
     }
     return box;
 }
-
-/* ---- data blocks ---- */
 
 static size_t num_rays_drawn(const struct plot_rays *rays)
 {
@@ -76,8 +72,6 @@ static void put_arrow_at_end_of_each_path(const struct map *map, const struct pl
         }
     }
 }
-
-/* ---- the picture ---- */
 
 /* Alpha of the rays' colour, larger for more rays; 0 is opaque, 255 invisible. */
 static int ray_transparency_0_to_255(const struct plot_rays *rays)

@@ -123,8 +123,6 @@ static void put_tracks_before_start(const struct map *map, const struct picture_
     fprintf(map->script, "EOD\n");
 }
 
-/* ---- the ends of tracks ---- */
-
 static bool do_labels_overlap(const struct map *map, const struct plot_point *one,
                               const struct plot_point *other)
 {
@@ -194,8 +192,6 @@ static void put_arrows_and_ellipses(const struct map *map, const struct plot_poi
         index++;
     }
 }
-
-/* ---- lines ---- */
 
 /* Legend clause of track number `index`: a title for each track, or with `many` one for all. */
 static void format_track_legend(char *title, size_t size, int32_t id, size_t index, bool many)

@@ -8,8 +8,6 @@
 #include "base/common.h"
 #include "picture/plan_view_map.h"
 
-/* ---- sensors ---- */
-
 static struct plot_radar *find_sensor_by_id(struct plot_radar *sensors, size_t count,
                                             int32_t sensor_id)
 {
@@ -63,8 +61,6 @@ static struct map_box map_box_of_echoes(const struct clutter_echo *echoes, size_
     map_box_include_points(&box, plots);
     return box;
 }
-
-/* ---- drawing ---- */
 
 static double echo_point_size(double hits)
 {

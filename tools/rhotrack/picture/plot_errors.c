@@ -10,8 +10,6 @@
 
 #define MARKERS_MAX 40 /* most markers on a line; closer ones cannot be told apart */
 
-/* ---- pairs ---- */
-
 /*
  * Collects places and indices (*at) of the points at one time, except tentative ones; returns their
  * number.
@@ -82,8 +80,6 @@ static void fail_if_no_error_known(const struct error_finder *finder)
     fail(EXIT_USAGE, "plot errors: no target has a track within gospa_cutoff_m (%g m) at any time",
          finder->cutoff_m);
 }
-
-/* ---- tracks at the truth's times ---- */
 
 static int by_time(const void *a, const void *b)
 {
@@ -181,8 +177,6 @@ void plot_errors_free(struct plot_errors *errors)
 {
     free(errors->error_m);
 }
-
-/* ---- the picture ---- */
 
 static void put_errors(FILE *script, const struct picture_data *data,
                        const struct plot_errors *errors)

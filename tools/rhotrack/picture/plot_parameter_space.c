@@ -56,16 +56,6 @@ static void cast_votes_of_plot(struct votes *votes, const struct rho_plot *plot)
     }
 }
 
-static void cast_all_votes(struct votes *votes, const struct revolutions *revolutions)
-{
-    find_rho_range(votes, revolutions);
-    for (size_t i = 0; i < revolutions->count; i++) {
-        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
-            cast_votes_of_plot(votes, &revolutions->list[i].plots[p]);
-        }
-    }
-}
-
 static void put_votes(FILE *script, const struct votes *votes, double unit_m)
 {
     fprintf(script, "$votes << EOD\n");
@@ -130,7 +120,12 @@ void plot_hough_votes(struct picture *picture, const struct picture_data *data,
                       const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
-    cast_all_votes(votes, revolutions);
+    find_rho_range(votes, revolutions);
+    for (size_t i = 0; i < revolutions->count; i++) {
+        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
+            cast_votes_of_plot(votes, &revolutions->list[i].plots[p]);
+        }
+    }
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
     put_track_lines(picture->script, &data->tracks, unit_m);

@@ -13,8 +13,6 @@
 /* a bias counts as known if its sigma is at most this share of a plot's noise */
 #define KNOWN_SHARE 0.5
 
-/* ---- data ---- */
-
 struct register_data *register_start(const struct parameters *parameters)
 {
     struct register_data *data = must_calloc(1, sizeof *data);
@@ -148,8 +146,6 @@ void register_free(struct register_data *data)
     free(data->tracks);
     free(data);
 }
-
-/* ---- the estimate ---- */
 
 /*
  * The radar that the parameters name, else the first one with plots: the time of a radar without

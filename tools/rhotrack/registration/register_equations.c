@@ -13,8 +13,6 @@
 #define SPARE_MIN 4    /* measurements that a segment needs beyond its number of coefficients */
 #define FAR_SIGMAS 3.0 /* residual in sigmas beyond which a plot's weight falls (Huber) */
 
-/* ---- cutting ---- */
-
 static int by_time(const void *a, const void *b)
 {
     const struct segment_plot *one = a, *other = b;
@@ -117,8 +115,6 @@ double segment_degrees_of_freedom(const struct segment *segment)
 {
     return 2.0 * (double)segment->count - SEGMENT_COEFFICIENTS;
 }
-
-/* ---- fitting ---- */
 
 /*
  * The terms of a plot in the least squares: two rows, along and across the line of sight, in units

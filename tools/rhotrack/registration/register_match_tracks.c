@@ -41,8 +41,6 @@ struct pair {
     double distance;
 };
 
-/* ---- one pair ---- */
-
 /*
  * Makes a course of a track: its plots corrected by the biases, with variances for the given ratio
  * of actual noise to sigmas.
@@ -170,8 +168,6 @@ static bool are_courses_of_one_target(const struct course *one, const struct cou
     }
     return true;
 }
-
-/* ---- all pairs ---- */
 
 struct pairs {
     size_t count, room;

@@ -36,8 +36,6 @@ bool register_knows_any_bias(const struct register_result *result)
     return false;
 }
 
-/* ---- table ---- */
-
 static void add_bias_row(struct text_table *table, const struct register_result *result,
                          size_t radar)
 {
@@ -109,8 +107,6 @@ void register_print(const struct register_result *result, FILE *out)
     text_table_free(&table);
 }
 
-/* ---- JSON ---- */
-
 static cJSON *radar_biases_json(const struct register_result *result, size_t radar)
 {
     const struct register_radar *of = &result->radars[radar];
@@ -150,8 +146,6 @@ void register_print_json(const struct register_result *result, uint64_t rows_ski
     cJSON_AddNumberToObject(object, "rows_skipped", (double)rows_skipped);
     json_print_and_delete(object);
 }
-
-/* ---- INI ---- */
 
 void register_write_ini(const struct register_result *result, const char *path)
 {

@@ -34,12 +34,6 @@ static struct normal_equations alloc_normal_equations(const struct register_data
     return normal;
 }
 
-static void free_normal_equations(struct normal_equations *normal)
-{
-    free(normal->matrix);
-    free(normal->right);
-}
-
 /* Fixes a bias at its present value: its row and column become those of the identity. */
 static void hold_bias_constant(struct normal_equations *normal, size_t index)
 {
@@ -121,8 +115,6 @@ static void iterate_biases(struct register_data *data, struct segments *segments
     }
 }
 
-/* ---- segments that are no parabolas ---- */
-
 static int by_value(const void *a, const void *b)
 {
     double one = *(const double *)a, other = *(const double *)b;
@@ -171,8 +163,6 @@ static bool leave_out_misfit_segments(struct segments *segments)
     return is_changed;
 }
 
-/* ---- result ---- */
-
 static void summarise_segments(const struct segments *segments, struct solution *solution)
 {
     double chi2 = 0.0, freedom = 0.0;
@@ -219,7 +209,8 @@ struct solution register_solve_biases(struct register_data *data, size_t referen
     }
     solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
     free(work);
-    free_normal_equations(&normal);
+    free(normal.matrix);
+    free(normal.right);
     segments_free(&segments);
     return solution;
 }

@@ -12,8 +12,6 @@
 #define TURN_RAD 6.283185307179586
 #define SAME_RAD 1e-4 /* azimuths nearer than this count as equal */
 
-/* ---- turns ---- */
-
 static double sector_width_rad(const struct radar_scan *scan)
 {
     double width = fmod(scan->to_rad - scan->from_rad, TURN_RAD);
@@ -74,8 +72,6 @@ size_t register_find_scan_after_turn(const struct radar_data *radar, size_t firs
     }
     return end;
 }
-
-/* ---- tracks ---- */
 
 /* The tracks reported while one radar's scans are stepped, with their track ids. */
 struct following {

@@ -16,8 +16,6 @@
 #define SIGHTING_ITERATIONS 16
 #define NEXT_PASS_TURNS 0.5 /* turns after a sighting before the same object can be seen again */
 
-/* ---- where sensors look ---- */
-
 static double antenna_turn_sign(const struct scene_sensor *sensor)
 {
     return sensor->is_counter_clockwise ? 1.0 : -1.0;
@@ -89,8 +87,6 @@ bool scene_covers_place(const struct scene *scene, double x_m, double y_m)
     return false;
 }
 
-/* ---- events ---- */
-
 static bool is_event_active(const struct scene_event *event, size_t sensor, double t_s)
 {
     return (event->sensors >> sensor & 1) && t_s >= event->from_s && t_s < event->until_s;
@@ -126,8 +122,6 @@ static bool is_scan_silenced_by_outage(const struct scene *scene, size_t sensor,
     }
     return false;
 }
-
-/* ---- plots of one sensor ---- */
 
 /* State of a target at the time at which the sensor's beam passes it. */
 struct sighting {
@@ -235,8 +229,6 @@ static struct scene_plot noisy_plot_of_sighting(const struct scene_sensor *senso
     return plot;
 }
 
-/* ---- passes of the beam over moving objects ---- */
-
 /*
  * Finds the time after after_s at which the antenna points to the object, and its state then.
  * False: the object does not exist then.
@@ -304,8 +296,6 @@ static void for_each_detectable_sighting(struct observer *observer, const struct
         }
     }
 }
-
-/* ---- targets ---- */
 
 static struct target_fades draw_fades_of_target(const struct scene *scene,
                                                 const struct scene_path *path, uint64_t target,
@@ -526,8 +516,6 @@ static struct sighting merge_sighting_group(const struct observer *observer, siz
     return middle;
 }
 
-/* ---- bodies ---- */
-
 #define HEADING_RATE_S 0.01 /* interval over which the turn rate is computed from headings */
 
 static double path_heading_rad(const struct scene_path *path, double t_s)
@@ -656,8 +644,6 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
         }
     }
 }
-
-/* ---- clutter ---- */
 
 /* Adds a plot of an object of the clutter that stays from scan to scan. */
 static void add_persistent_clutter(struct observer *observer, const struct scene_mover *mover,
@@ -923,8 +909,6 @@ static void observe_false_bearings(struct observer *observer)
         }
     }
 }
-
-/* ---- all sensors ---- */
 
 static int by_scan_and_time(const void *a, const void *b)
 {

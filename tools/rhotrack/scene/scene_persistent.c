@@ -47,8 +47,6 @@ bool folded_motion_at(const struct scene_mover *mover, const struct scene_sensor
     return range_m < 2.0 * mover->unambiguous_m;
 }
 
-/* ---- clutter that persists over scans ---- */
-
 static const struct scene_sensor *first_radar_in_mask(const struct scene *scene, uint32_t sensors)
 {
     for (size_t i = 0; i < scene->num_radars; i++) {
@@ -86,16 +84,6 @@ static void draw_clutter_place(const struct scene *scene, const struct scene_clu
         azimuth_rad = random_between(random, from_rad, to_rad);
         *x_m = sensor->x_m + range_m * portable_cos(azimuth_rad);
         *y_m = sensor->y_m + range_m * portable_sin(azimuth_rad);
-    }
-}
-
-static void draw_standing_echo(const struct scene *scene, const struct scene_clutter *clutter,
-                               struct random *random, struct scene_mover *mover, size_t index)
-{
-    draw_clutter_place(scene, clutter, random, &mover->x_m, &mover->y_m);
-    if (clutter->places_m) {
-        mover->x_m = clutter->places_m[index][0];
-        mover->y_m = clutter->places_m[index][1];
     }
 }
 
@@ -175,7 +163,11 @@ struct scene_mover *draw_persistent_clutter(const struct scene *scene, size_t so
                                       .pd = clutter->pd,
                                       .target_id = -1};
         if (clutter->kind == CLUTTER_STANDING) {
-            draw_standing_echo(scene, clutter, &own, mover, i);
+            draw_clutter_place(scene, clutter, &own, &mover->x_m, &mover->y_m);
+            if (clutter->places_m) {
+                mover->x_m = clutter->places_m[i][0];
+                mover->y_m = clutter->places_m[i][1];
+            }
         } else if (clutter->kind == CLUTTER_FLOCK) {
             draw_bird(clutter, &own, mover);
         } else if (clutter->kind == CLUTTER_SPIKES) {

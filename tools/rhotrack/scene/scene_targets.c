@@ -39,8 +39,6 @@ static double add_speed_change_legs(struct scene_path *path, double t_s, double 
     return t_s + for_s;
 }
 
-/* ---- described paths ---- */
-
 /*
  * Duration of the parts of a turn with constant lateral acceleration and changing speed: each part
  * turns at the rate of its middle speed.
@@ -91,15 +89,6 @@ static double add_legs_of_step(struct scene_path *path, double t_s, const struct
         path->legs[path->num_legs - 1].speed_mps = step->to_speed_mps;
     }
     return t_s + for_s;
-}
-
-static void add_legs_of_all_steps(struct scene_path *path, const struct target_item *item)
-{
-    double t_s = path->from_s;
-
-    for (size_t i = 0; i < item->num_steps; i++) {
-        t_s = add_legs_of_step(path, t_s, &item->steps[i]);
-    }
 }
 
 static void add_legs_through_points(struct scene_path *path, const struct target_item *item)
@@ -162,11 +151,13 @@ static struct scene_path path_from_description(const struct target_item *item, s
         path.legs[0].z_m = item->z_m;
         path.legs[0].vz_mps = item->vz_mps;
     }
-    add_legs_of_all_steps(&path, item);
+    double t_s = path.from_s;
+
+    for (size_t i = 0; i < item->num_steps; i++) {
+        t_s = add_legs_of_step(&path, t_s, &item->steps[i]);
+    }
     return path;
 }
-
-/* ---- random paths ---- */
 
 static void draw_first_leg(const struct target_item *item, struct scene_path *path,
                            struct random *random)
@@ -374,8 +365,6 @@ static struct scene_path draw_path_within_limits(const struct target_draft *draf
          draft->file, draft->index, DRAFTS_MAX, name_of_limit(draft->item));
 }
 
-/* ---- all paths ---- */
-
 /*
  * Draws the paths of one member of a group: a single one, or with is_replaced one after the other
  * with pauses, the first beginning somewhere in its life.
@@ -449,8 +438,6 @@ struct scene_path *targets_draw_paths(const struct scene_targets *targets, const
     return paths.paths;
 }
 
-/* ---- reading ---- */
-
 /* Reads a list of two or three numbers as x, y and z; three set *has_height. */
 static bool read_xy_or_xyz(struct json_object *object, const char *key, double max,
                            double vector[3], bool *has_height)
@@ -495,17 +482,6 @@ static struct path_step read_leg(struct json_object object, bool *has_height)
     }
     json_refuse_unknown_keys(&object);
     return step;
-}
-
-static void read_legs(struct json_object *object, struct target_item *item)
-{
-    struct json_list list = json_read_list(object, "legs", LEGS_MAX);
-
-    item->num_steps = list.count;
-    item->steps = must_calloc(list.count + 1, sizeof *item->steps);
-    for (size_t i = 0; i < list.count; i++) {
-        item->steps[i] = read_leg(json_element(&list, i), &item->has_height);
-    }
 }
 
 static void read_velocity(struct json_object *object, struct target_item *item)
@@ -612,7 +588,13 @@ static void read_described_path(struct json_object *object, struct target_item *
         item->z_m = place_m[2];
         read_velocity(object, item);
     }
-    read_legs(object, item);
+    struct json_list list = json_read_list(object, "legs", LEGS_MAX);
+
+    item->num_steps = list.count;
+    item->steps = must_calloc(list.count + 1, sizeof *item->steps);
+    for (size_t i = 0; i < list.count; i++) {
+        item->steps[i] = read_leg(json_element(&list, i), &item->has_height);
+    }
 }
 
 static void read_random_turns(struct json_object *object, struct target_item *item)
@@ -746,16 +728,6 @@ static void read_random_targets(struct json_object *object, struct target_item *
     read_random_stops(object, item);
 }
 
-static void read_random_flights(struct json_object *object, struct target_item *item)
-{
-    item->flights = json_read_count(object, "flights", 1, GROUP_MAX, 0);
-    json_require_key(object, "box_m");
-    read_start_box(object, item);
-    json_require_key(object, "least_s");
-    item->flights_least = json_read_number(object, "least_s", 1, 1e5, 0);
-    item->crossing_share = json_read_number(object, "crossing_share", 0, 1, 0);
-}
-
 struct scene_targets targets_read(struct json_object *object, const char *key)
 {
     struct json_list list = json_read_list(object, key, ITEMS_MAX);
@@ -769,7 +741,12 @@ struct scene_targets targets_read(struct json_object *object, const char *key)
         item->body = scene_body_read(&one);
         json_exclude_keys(&one, "count", "flights");
         if (json_has_key(&one, "flights")) {
-            read_random_flights(&one, item);
+            item->flights = json_read_count(&one, "flights", 1, GROUP_MAX, 0);
+            json_require_key(&one, "box_m");
+            read_start_box(&one, item);
+            json_require_key(&one, "least_s");
+            item->flights_least = json_read_number(&one, "least_s", 1, 1e5, 0);
+            item->crossing_share = json_read_number(&one, "crossing_share", 0, 1, 0);
         } else if (json_has_key(&one, "count")) {
             read_random_targets(&one, item);
         } else {

@@ -6,8 +6,6 @@
 #include "scene/scene.h"
 #include "scene/scene_observe.h"
 
-/* ---- plots and bearings ---- */
-
 static bool any_radar_measures_range_rate(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->num_radars; i++) {
@@ -192,8 +190,6 @@ static void write_bearings_file(const struct scene_run *run, const char *folder)
     free(path);
 }
 
-/* ---- truth ---- */
-
 static int by_int64(const void *a, const void *b)
 {
     const int64_t *one = a, *other = b;
@@ -283,8 +279,6 @@ static void write_truth_and_paths_files(const struct scene_run *run, const char 
     free(path);
     free(all_path);
 }
-
-/* ---- settings for the tracker ---- */
 
 static void write_sensor_settings(const struct scene_sensor *sensor, FILE *file)
 {

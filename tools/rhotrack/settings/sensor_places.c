@@ -31,8 +31,6 @@ static const struct sensor_parameters *find_sensor_on_earth(const struct paramet
     return NULL;
 }
 
-/* ---- The origin ---- */
-
 bool parameters_has_origin(const struct parameters *parameters)
 {
     bool has_lat = parameters_has_value(parameters, PARAMETER_ORIGIN_LAT_DEG);
@@ -52,8 +50,6 @@ struct local_frame *parameters_open_local_frame(const struct parameters *paramet
     return local_frame_open(value[PARAMETER_ORIGIN_LAT_DEG], value[PARAMETER_ORIGIN_LON_DEG],
                             value[PARAMETER_ORIGIN_ALT_M]);
 }
-
-/* ---- Sensors ---- */
 
 /*
  * True where a sensor has a place by latitude and longitude. Exit 2 where that is incomplete, given

@@ -18,8 +18,6 @@ void transport_refuse(const struct transport *transport, const char *format, ...
     fail(EXIT_USAGE, "%s %s: %s", transport->source, transport->url, reason);
 }
 
-/* ---- The reception clock ---- */
-
 static int64_t system_time_us(void)
 {
     struct timespec now;

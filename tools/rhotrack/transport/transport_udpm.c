@@ -52,8 +52,6 @@ struct udpm {
     uint8_t bytes[BATCH][DATAGRAM_BYTES];
 };
 
-/* ---- URL ---- */
-
 static long parse_url_number(const struct transport *transport, const char *name, const char *text,
                              long min, long max)
 {
@@ -143,8 +141,6 @@ static void parse_udpm_url(struct transport *transport, struct udpm *udpm)
     }
     free(text);
 }
-
-/* ---- Sockets ---- */
 
 static void must_set_option(const struct transport *transport, int descriptor, int level,
                             int option, const void *value, socklen_t size)
@@ -248,8 +244,6 @@ static void open_sender(const struct transport *transport, struct udpm *udpm)
         must_set_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
     }
 }
-
-/* ---- Receiving ---- */
 
 static int receiver_descriptor(const void *object)
 {
@@ -371,8 +365,6 @@ static enum transport_found receive_message(struct transport *transport, void *o
     }
     return TRANSPORT_NOTHING;
 }
-
-/* ---- Sending ---- */
 
 static bool send_message(void *object, const char *channel, const uint8_t *data, size_t size)
 {

@@ -7,8 +7,6 @@
 #include "io/asterix/asterix_codec.h"
 #include "io/asterix/asterix_item_lengths.h"
 
-/* ---- Numbers ---- */
-
 static uint32_t read_unsigned(const uint8_t *data, int bytes)
 {
     return (uint32_t)load_big_endian(data, bytes);
@@ -38,8 +36,6 @@ int32_t asterix_sensor_id(const struct asterix_source *source)
 {
     return sign_extend((uint32_t)source->sac << 8 | source->sic, 16);
 }
-
-/* ---- CAT048 ---- */
 
 /* I048/020, target report descriptor. Its second byte is there where the first has FX set. */
 static void read_target_report_descriptor(const uint8_t *item, size_t size,
@@ -118,8 +114,6 @@ static void read_cat048_plot(const struct asterix_record *record, struct asterix
     read_identity(record, plot);
 }
 
-/* ---- CAT001 ---- */
-
 /* Items of CAT001 that both profiles have; cat001_item knows their indices. */
 enum { OLD_010, OLD_020, OLD_040, OLD_070, OLD_090, OLD_120, OLD_141, OLD_161, NUM_OLD };
 
@@ -171,8 +165,6 @@ void asterix_plot_read(const struct asterix_record *record, struct asterix_plot 
     }
 }
 
-/* ---- CAT034, CAT002 ---- */
-
 #define QUARTER_TURN 4194304 /* 90 degrees in units of item I034/120 */
 
 /*
@@ -215,8 +207,6 @@ void asterix_service_read(const struct asterix_record *record, struct asterix_se
         read_radar_place(record->items[I034_120], service);
     }
 }
-
-/* ---- CAT062 ---- */
 
 /*
  * I062/080, track status: bit CNF in the first byte, TSB and TSE in the second, CST in the fourth.

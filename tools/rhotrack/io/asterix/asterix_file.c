@@ -30,8 +30,6 @@ struct asterix_file {
     uint64_t others[256], other_records[256];
 };
 
-/* ---- What sort of file ---- */
-
 static bool is_wanted_category(const struct asterix_file *file, uint8_t category)
 {
     return file->wants_tracks
@@ -82,8 +80,6 @@ bool asterix_file_is_asterix(const char *path)
     }
     return !stat(path, &status) && S_ISREG(status.st_mode) && begins_with_good_block(path);
 }
-
-/* ---- Bytes ---- */
 
 /* Whether the bytes consist of whole data blocks of any category. */
 static bool consists_of_blocks(const uint8_t *data, size_t size)
@@ -182,8 +178,6 @@ struct asterix_file *asterix_file_open_tracks(const char *path, bool keep_going)
     return file;
 }
 
-/* ---- Bad places ---- */
-
 /* Advances to the next readable block, or to the end. */
 static void advance_to_good_block(struct asterix_file *file)
 {
@@ -231,8 +225,6 @@ static void fail_or_skip_bad_block(struct asterix_file *file, const struct aster
     file->places_skipped++;
     file->bytes_skipped += file->offset + file->at - start;
 }
-
-/* ---- Records ---- */
 
 /* Number of a skipped block's records, up to the first bad one. */
 static uint64_t count_block_records(const struct asterix_block *block)
@@ -331,8 +323,6 @@ struct asterix_place asterix_file_radar_place(const char *path)
     asterix_file_close(file);
     return service.place;
 }
-
-/* ---- What was skipped ---- */
 
 /* Reports the left-out blocks on standard error, one line a category. */
 static void report_skipped_categories(const struct asterix_file *file)

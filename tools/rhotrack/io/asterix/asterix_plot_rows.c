@@ -12,8 +12,6 @@
 #define PI 3.141592653589793
 #define HOLD_S 5.0 /* wait for late plots of a look; waiting costs nothing in a file */
 
-/* ---- Columns ---- */
-
 enum column {
     AT_T_S,
     AT_SENSOR_ID,
@@ -66,8 +64,6 @@ struct table *asterix_plot_rows_empty_table(const char *path, const struct aster
     return table_make_empty_of_numbers(path, list, count);
 }
 
-/* ---- Records ---- */
-
 /* A row of the table: its time, its rank among rows of equal time, and its cells by enum column. */
 struct output_row {
     int64_t time_128;
@@ -108,13 +104,6 @@ static void put_plot_cells(struct output_row *row, const struct asterix_scan_plo
     }
 }
 
-static void put_radar_place_cells(struct output_row *row, const struct asterix_place *place)
-{
-    put_rounded_cell(row, AT_SENSOR_LAT_DEG, place->lat_deg);
-    put_rounded_cell(row, AT_SENSOR_LON_DEG, place->lon_deg);
-    put_rounded_cell(row, AT_SENSOR_ALT_M, place->alt_m);
-}
-
 /* A row of a scan: of a plot, or with NULL the row without a plot that begins the scan. */
 static struct output_row make_row_of_plot_or_scan_start(const struct asterix_scan *scan,
                                                         const struct asterix_scan_plot *mark)
@@ -129,7 +118,9 @@ static struct output_row make_row_of_plot_or_scan_start(const struct asterix_sca
         put_plot_cells(&row, mark);
     }
     if (scan->place.is_given) {
-        put_radar_place_cells(&row, &scan->place);
+        put_rounded_cell(&row, AT_SENSOR_LAT_DEG, scan->place.lat_deg);
+        put_rounded_cell(&row, AT_SENSOR_LON_DEG, scan->place.lon_deg);
+        put_rounded_cell(&row, AT_SENSOR_ALT_M, scan->place.alt_m);
     }
     /*
      * The antenna turns clockwise, so that counter-clockwise the sector goes from its end to its
@@ -170,8 +161,6 @@ void asterix_plot_rows_add_scan(struct table *table, const struct asterix_scan *
     }
 }
 
-/* ---- Recordings ---- */
-
 struct asterix_plot_rows {
     char *path;
     struct asterix_file *file;
@@ -191,8 +180,6 @@ struct asterix_plot_rows {
 
 const char asterix_plot_rows_no_tracks[] = "contains tracks (CAT062), but plots are needed; "
                                            "evaluate, plot, convert and publish take tracks";
-
-/* ---- Rules, origin ---- */
 
 struct asterix_rules asterix_plot_rows_scan_rules(const struct parameters *parameters,
                                                   double hold_s, double wait_s)
@@ -255,8 +242,6 @@ void asterix_plot_rows_report_left_out(const char *path, const struct asterix_co
         fputc('\n', stderr);
     }
 }
-
-/* ---- Looking at the file ---- */
 
 /*
  * Notes the radar of a record and the columns that it fills. Returns whether it can be used: it has
@@ -348,8 +333,6 @@ void asterix_plot_rows_set_quiet(struct asterix_plot_rows *records)
     records->is_hushed = true;
 }
 
-/* ---- Rows ---- */
-
 /*
  * Queues the row of a plot, or with mark NULL the row that begins a scan. A row before the newest
  * one given out is counted as late instead.
@@ -368,16 +351,6 @@ static void queue_row_unless_late(struct asterix_plot_rows *records,
     records->list = must_make_room_for_one(records->list, records->count, &records->capacity,
                                            sizeof *records->list);
     records->list[records->count++] = row;
-}
-
-static void queue_scan_rows(struct asterix_plot_rows *records, const struct asterix_scan *scan)
-{
-    if (scan->is_numbered) {
-        queue_row_unless_late(records, scan, NULL);
-    }
-    for (size_t i = 0; i < scan->count; i++) {
-        queue_row_unless_late(records, scan, &scan->marks[i]);
-    }
 }
 
 static int by_time_and_order(const void *a, const void *b)
@@ -402,7 +375,12 @@ static void queue_rows_of_complete_scans(struct asterix_plot_rows *records)
             records->next = 0;
             before = 0;
         }
-        queue_scan_rows(records, &scan);
+        if (scan.is_numbered) {
+            queue_row_unless_late(records, &scan, NULL);
+        }
+        for (size_t i = 0; i < scan.count; i++) {
+            queue_row_unless_late(records, &scan, &scan.marks[i]);
+        }
     }
     if (records->count != before) {
         qsort(records->list, records->count, sizeof *records->list, by_time_and_order);

@@ -53,8 +53,6 @@ bool asterix_plot_rows_next(struct asterix_plot_rows *records, struct table *tab
 uint64_t asterix_plot_rows_position(const struct asterix_plot_rows *records);
 void asterix_plot_rows_close(struct asterix_plot_rows *records);
 
-/* ---- Of what is heard live ---- */
-
 /*
  * Adds a scan's rows to a table: one without a plot that begins the scan, then one for each plot.
  */

@@ -11,8 +11,6 @@
 /* longest wait of a plot for its look: more than the slowest turn */
 #define WAIT_128 (90 * ASTERIX_TIME_HZ)
 
-/* ---- Time ---- */
-
 /* The time nearest to the reference that has the given time of day. */
 static int64_t unwrap_time_of_day(int64_t reference_128, uint32_t time_of_day_128)
 {
@@ -57,8 +55,6 @@ bool asterix_radar_unwrap_time(struct asterix_radar *sensor, uint32_t time_of_da
     sensor->clock_128 = *time_128 > sensor->clock_128 ? *time_128 : sensor->clock_128;
     return true;
 }
-
-/* ---- Plots and looks ---- */
 
 void asterix_scan_plots_add(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark)
 {

@@ -105,8 +105,6 @@ static struct asterix_radar *find_or_add_sensor(struct asterix_scans *scans,
     return &scans->sensors[i];
 }
 
-/* ---- Complete scans ---- */
-
 /* Order by time, then by azimuth. */
 static int compare_plots(const void *a, const void *b)
 {
@@ -201,8 +199,6 @@ bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
     scans->given = (struct asterix_scan_plot *)scan->marks;
     return true;
 }
-
-/* ---- What is known when ---- */
 
 int64_t asterix_scans_settled_time_128(const struct asterix_scans *scans)
 {
@@ -306,8 +302,6 @@ static void finish_due_scans(struct asterix_scans *scans, struct asterix_radar *
     finish_scans_of_silent_sensors(scans);
 }
 
-/* ---- Plots ---- */
-
 /* The counter of the reason for which a plot is left out, or NULL where it is used. */
 static uint64_t *counter_if_left_out(struct asterix_counts *counts, const struct asterix_plot *plot)
 {
@@ -340,18 +334,6 @@ static struct asterix_scan_plot make_scan_plot(const struct asterix_plot *plot, 
     return mark;
 }
 
-static void add_plot_unless_late(struct asterix_scans *scans, struct asterix_radar *sensor,
-                                 const struct asterix_scan_plot *mark)
-{
-    if (mark->time_128 < asterix_radar_settled_time(sensor, scans->hold_128)) {
-        scans->counts.late++;
-    } else if (!sensor->is_known || sensor->has_crossings) {
-        asterix_radar_place_plot(sensor, mark, scans->hold_128);
-    } else {
-        asterix_radar_add_timed_plot(sensor, mark, scans->interval_128);
-    }
-}
-
 static void process_plot(struct asterix_scans *scans, const struct asterix_plot *plot)
 {
     uint64_t *count = counter_if_left_out(&scans->counts, plot);
@@ -375,12 +357,16 @@ static void process_plot(struct asterix_scans *scans, const struct asterix_plot 
     } else {
         const struct asterix_scan_plot mark = make_scan_plot(plot, time_128, &scans->counts);
 
-        add_plot_unless_late(scans, sensor, &mark);
+        if (mark.time_128 < asterix_radar_settled_time(sensor, scans->hold_128)) {
+            scans->counts.late++;
+        } else if (!sensor->is_known || sensor->has_crossings) {
+            asterix_radar_place_plot(sensor, &mark, scans->hold_128);
+        } else {
+            asterix_radar_add_timed_plot(sensor, &mark, scans->interval_128);
+        }
         finish_due_scans(scans, sensor);
     }
 }
-
-/* ---- Antenna ---- */
 
 static void note_place_and_period(struct asterix_radar *sensor,
                                   const struct asterix_service *service)

@@ -35,8 +35,6 @@ static bool set_error(const struct cursor *cursor, size_t at, const char *format
     return false;
 }
 
-/* ---- Blocks ---- */
-
 bool asterix_block_read(const uint8_t *data, size_t size, struct asterix_block *block,
                         struct asterix_error *error)
 {
@@ -78,8 +76,6 @@ bool asterix_category_is_service(uint8_t category)
 {
     return category == ASTERIX_SERVICE || category == ASTERIX_OLD_SERVICE;
 }
-
-/* ---- Items ---- */
 
 /*
  * Bytes of an extended item, up to the part of `step` bytes whose last bit is clear; more than the

@@ -97,32 +97,6 @@ static void put_velocity_and_accel(struct record_encoder *encoder,
     }
 }
 
-static void put_altitude_and_climb(struct record_encoder *encoder,
-                                   const struct asterix_track *track)
-{
-    if (track->has_altitude) {
-        begin_record_item(encoder, I062_130);
-        put_scaled_signed(encoder, track->alt_m, 6.25 * 0.3048, 2);
-    }
-    if (track->has_climb) {
-        begin_record_item(encoder, I062_220);
-        put_scaled_signed(encoder, track->climb_mps, 6.25 * 0.3048 / 60, 2);
-    }
-}
-
-/* I062/500, accuracies: its parts APC and ATV, the first and the sixth. */
-static void put_accuracies(struct record_encoder *encoder, const struct asterix_track *track)
-{
-    if (track->has_sigma) {
-        begin_record_item(encoder, I062_500);
-        put_big_endian(encoder, 0x80 | 0x04, 1);
-        put_scaled_unsigned(encoder, track->sigma_x_m, 0.5, 2);
-        put_scaled_unsigned(encoder, track->sigma_y_m, 0.5, 2);
-        put_scaled_unsigned(encoder, track->sigma_vx_mps, 0.25, 1);
-        put_scaled_unsigned(encoder, track->sigma_vy_mps, 0.25, 1);
-    }
-}
-
 size_t asterix_track_encode(const struct asterix_track *track, uint8_t record[ASTERIX_TRACK_BYTES])
 {
     struct record_encoder encoder = {.size = 0};
@@ -138,8 +112,23 @@ size_t asterix_track_encode(const struct asterix_track *track, uint8_t record[AS
     begin_record_item(&encoder, I062_040);
     put_big_endian(&encoder, track->number, 2);
     put_track_status(&encoder, track);
-    put_altitude_and_climb(&encoder, track);
-    put_accuracies(&encoder, track);
+    if (track->has_altitude) {
+        begin_record_item(&encoder, I062_130);
+        put_scaled_signed(&encoder, track->alt_m, 6.25 * 0.3048, 2);
+    }
+    if (track->has_climb) {
+        begin_record_item(&encoder, I062_220);
+        put_scaled_signed(&encoder, track->climb_mps, 6.25 * 0.3048 / 60, 2);
+    }
+    /* I062/500, accuracies: its parts APC and ATV, the first and the sixth. */
+    if (track->has_sigma) {
+        begin_record_item(&encoder, I062_500);
+        put_big_endian(&encoder, 0x80 | 0x04, 1);
+        put_scaled_unsigned(&encoder, track->sigma_x_m, 0.5, 2);
+        put_scaled_unsigned(&encoder, track->sigma_y_m, 0.5, 2);
+        put_scaled_unsigned(&encoder, track->sigma_vx_mps, 0.25, 1);
+        put_scaled_unsigned(&encoder, track->sigma_vy_mps, 0.25, 1);
+    }
     for (size_t i = 0; i < encoder.specification_size; i++) {
         bool is_last = i + 1 == encoder.specification_size;
 

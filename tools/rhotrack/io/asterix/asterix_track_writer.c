@@ -72,8 +72,6 @@ void asterix_track_writer_free(struct asterix_track_writer *tracks)
     }
 }
 
-/* ---- Blocks ---- */
-
 static void write_block(struct asterix_track_writer *tracks)
 {
     if (tracks->size > 0) {
@@ -99,8 +97,6 @@ static void add_track_record(struct asterix_track_writer *tracks, const struct a
     memcpy(tracks->block + tracks->size, record, size);
     tracks->size += size;
 }
-
-/* ---- Tracks ---- */
 
 /* Time of day in 1/128 s from utime in microseconds. */
 static uint32_t time_of_day_128(int64_t utime)
@@ -178,8 +174,6 @@ static void note_sensor_of_track(struct asterix_track_writer *tracks, int16_t se
     tracks->sensor_id = tracks->has_sensor ? tracks->sensor_id : sensor_id;
     tracks->has_sensor = true;
 }
-
-/* ---- Lists ---- */
 
 static int by_track_id(const void *a, const void *b)
 {

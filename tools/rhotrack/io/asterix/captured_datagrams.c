@@ -28,8 +28,6 @@ struct captured_datagrams {
     bool is_cut; /* the file ends within a packet, or is damaged */
 };
 
-/* ---- What sort of file ---- */
-
 bool captured_datagrams_is_capture(const char *path)
 {
     static const uint8_t beginnings[][4] = {
@@ -82,8 +80,6 @@ struct captured_datagrams *captured_datagrams_open(const char *path)
                                                        : "(unknown)");
     }
 }
-
-/* ---- Headers ---- */
 
 /* The bytes of a packet that are not parsed yet. */
 struct packet_rest {
@@ -192,8 +188,6 @@ static bool cut_to_udp_content(struct captured_datagrams *captured, struct packe
     rest->size = size;
     return skip_bytes(rest, UDP_BYTES) && rest->size > 0;
 }
-
-/* ---- Packets ---- */
 
 bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_going,
                              const uint8_t **data, size_t *size)

@@ -436,16 +436,6 @@ static bool is_header_named(const struct table *table)
     return has_place && table_find_column(table, column_names[COL_T_S]) >= 0;
 }
 
-static void set_column_unit(struct table *table, size_t column, struct unit unit)
-{
-    if (!table->factors) {
-        table->factors = must_calloc(table->num_columns, sizeof *table->factors);
-        table->offsets = must_calloc(table->num_columns, sizeof *table->offsets);
-    }
-    table->factors[column] = unit.factor;
-    table->offsets[column] = unit.offset;
-}
-
 void columns_rename(struct table *table)
 {
     rename_columns_by_option(table);
@@ -465,7 +455,12 @@ void columns_rename(struct table *table)
         }
         table->names[i] = column;
         if (unit.factor < 1 || unit.factor > 1) {
-            set_column_unit(table, i, unit);
+            if (!table->factors) {
+                table->factors = must_calloc(table->num_columns, sizeof *table->factors);
+                table->offsets = must_calloc(table->num_columns, sizeof *table->offsets);
+            }
+            table->factors[i] = unit.factor;
+            table->offsets[i] = unit.offset;
         }
     }
 }

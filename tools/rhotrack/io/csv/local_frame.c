@@ -99,18 +99,6 @@ double local_frame_convergence_rad(const struct local_frame *from, const struct 
     return atan2(origin[0] - north[0], north[1] - origin[1]);
 }
 
-/* ---- A slant range and a height ---- */
-
-static void place_at_elevation(const struct local_frame_plot *plot, double sin_elevation,
-                               double place_m[3])
-{
-    double cos_elevation = sqrt(1 - sin_elevation * sin_elevation);
-
-    place_m[0] = plot->range_m * cos_elevation * cos(plot->azimuth_rad);
-    place_m[1] = plot->range_m * cos_elevation * sin(plot->azimuth_rad);
-    place_m[2] = plot->range_m * sin_elevation;
-}
-
 /*
  * Newton's method for the sine of the elevation, with which the height increases steadily. On a
  * sphere of radius a the height follows from the triangle with the earth's centre, (a + h)^2 = (a +
@@ -132,7 +120,11 @@ bool local_frame_from_slant_range(const struct local_frame *radar,
     for (int i = 0; i < STEPS_MAX; i++) {
         double found_m[3], geodetic[3];
 
-        place_at_elevation(plot, sine, found_m);
+        double cos_elevation = sqrt(1 - sine * sine);
+
+        found_m[0] = plot->range_m * cos_elevation * cos(plot->azimuth_rad);
+        found_m[1] = plot->range_m * cos_elevation * sin(plot->azimuth_rad);
+        found_m[2] = plot->range_m * sine;
         local_frame_to_geodetic(radar, found_m, geodetic);
         if (fabs(geodetic[2] - plot->alt_m) <= tolerance_m) {
             for (int axis = 0; axis < 3; axis++) {

@@ -49,8 +49,6 @@ double radar_axes_turn_rad(const struct radar_axes *frame)
     return frame->has_own_north ? frame->turn_rad : 0.0;
 }
 
-/* ---- From frame to frame ---- */
-
 /* Azimuth and elevation in the common frame of a position in the radar's own frame. */
 static void set_common_angles(const struct radar_axes *frame, const double own_m[3],
                               struct radar_look *look)
@@ -81,8 +79,6 @@ void radar_axes_look_to_common(const struct radar_axes *frame, bool has_elevatio
         look->azimuth_rad = remainder(look->azimuth_rad + frame->turn_rad, TURN);
     }
 }
-
-/* ---- Heights ---- */
 
 /*
  * Sigma of the position upwards, at right angles to the line of sight u, divided by the range.

@@ -61,8 +61,6 @@ _Noreturn static void fail_at_line(const struct table_stream *stream, uint32_t l
     fail(EXIT_USAGE, "%s:%u: %s", stream->table->path, (unsigned)line, what);
 }
 
-/* ---- The file ---- */
-
 /* Drops the bytes of rows that were parsed, unless the whole file is kept. */
 static void drop_parsed_bytes(struct table_stream *stream)
 {
@@ -86,15 +84,6 @@ static bool is_followed_pipe_silent(const struct table_stream *stream)
     return stream->follow && !stream->is_plain && poll(&ready, 1, 0) <= 0;
 }
 
-/* Makes room for `bytes` more bytes in the content. */
-static void make_content_room(struct table_stream *stream, size_t bytes)
-{
-    while (stream->capacity - stream->bytes < bytes) {
-        stream->capacity *= 2;
-        stream->content = must_realloc(stream->content, stream->capacity);
-    }
-}
-
 /* Reads more bytes, or finds that the file ends; false where neither is possible yet. */
 static bool read_more(struct table_stream *stream)
 {
@@ -104,7 +93,10 @@ static bool read_more(struct table_stream *stream)
         return false;
     }
     drop_parsed_bytes(stream);
-    make_content_room(stream, 1);
+    if (stream->capacity == stream->bytes) {
+        stream->capacity *= 2;
+        stream->content = must_realloc(stream->content, stream->capacity);
+    }
     do {
         got = read(stream->file, stream->content + stream->bytes, stream->capacity - stream->bytes);
     } while (got < 0 && errno == EINTR);
@@ -115,8 +107,6 @@ static bool read_more(struct table_stream *stream)
     stream->is_end = got == 0 && !(stream->follow && stream->is_plain);
     return got > 0 || stream->is_end;
 }
-
-/* ---- Lines ---- */
 
 /*
  * Length of the line at the current position with its line end; 0 where it is not there as a whole,
@@ -139,13 +129,6 @@ static size_t complete_line_length(const struct table_stream *stream)
     return (size_t)(c - start);
 }
 
-static void refuse_nul_bytes(const struct table_stream *stream, size_t length)
-{
-    if (memchr(stream->content + stream->position, '\0', length)) {
-        fail_at_line(stream, stream->line, "not a text file: it has a NUL byte");
-    }
-}
-
 /* Whether a line outside a row is blank or a comment. */
 static bool is_blank_or_comment(const char *line, size_t length)
 {
@@ -156,8 +139,6 @@ static bool is_blank_or_comment(const char *line, size_t length)
     }
     return i == length || line[i] == '#';
 }
-
-/* ---- Rows ---- */
 
 /*
  * Whether a name points into the file's text; others are constants (columns.h).
@@ -326,14 +307,6 @@ static void process_complete_row(struct table_stream *stream)
     fail_or_skip_row(stream, what);
 }
 
-/* Sets the separator of cells from the header line. */
-static void set_delimiter_from_header(struct table_stream *stream, const char *line, size_t length)
-{
-    stream->delimiter = dialect_find_delimiter(line, length);
-    csv_free(&stream->parser);
-    restart_csv_parser(stream);
-}
-
 static const char *join_blanks(struct table_stream *stream, const char *line, size_t *length)
 {
     if (*length > stream->joined_capacity) {
@@ -352,7 +325,9 @@ static void parse_line(struct table_stream *stream, size_t length)
     const char *line = stream->content + stream->position;
 
     if (!stream->delimiter) {
-        set_delimiter_from_header(stream, line, length);
+        stream->delimiter = dialect_find_delimiter(line, length);
+        csv_free(&stream->parser);
+        restart_csv_parser(stream);
     }
     if (!stream->row_is_open) {
         begin_row(stream, length);
@@ -378,8 +353,6 @@ static void parse_line(struct table_stream *stream, size_t length)
         process_complete_row(stream);
     }
 }
-
-/* ---- Lines to rows ---- */
 
 /*
  * Name of the binary format that a file begins with, as an error message; NULL: it may be text.
@@ -427,7 +400,9 @@ static void refuse_bad_line(const struct table_stream *stream, size_t length)
     if (length > 0 && !stream->table->names && !stream->row_is_open) {
         refuse_foreign_format(stream);
     }
-    refuse_nul_bytes(stream, length);
+    if (memchr(stream->content + stream->position, '\0', length)) {
+        fail_at_line(stream, stream->line, "not a text file: it has a NUL byte");
+    }
     if (!stream->is_whole && length > TABLE_STREAM_ROW_BYTES) {
         fail_at_line(stream, stream->line, "a line of more than 1 MiB");
     }
@@ -537,8 +512,6 @@ static enum table_stream_found parse_to_row(struct table_stream *stream, bool to
     return TABLE_STREAM_ROW;
 }
 
-/* ---- Ends ---- */
-
 static void need_header(const struct table_stream *stream)
 {
     if (stream->table->names) {
@@ -561,19 +534,6 @@ static void fail_if_all_rows_bad(const struct table_stream *stream)
     }
 }
 
-/* ---- Whole files ---- */
-
-static void open_asterix_recording(struct table_stream *stream, const char *path,
-                                   const struct parameters *parameters)
-{
-    if (stream->follow) {
-        fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an ASTERIX recording", path);
-    }
-    stream->asterix = asterix_plot_rows_open(path, parameters, stream->keep_going);
-    table_free(stream->table);
-    stream->table = asterix_plot_rows_empty_table(path, asterix_plot_rows_columns(stream->asterix));
-}
-
 static struct table_stream *open_stream(const char *path, const struct parameters *parameters,
                                         bool keep_going, bool follow)
 {
@@ -592,7 +552,14 @@ static struct table_stream *open_stream(const char *path, const struct parameter
     restart_csv_parser(stream);
     stream->file = -1;
     if (!is_standard && asterix_file_is_asterix(path)) {
-        open_asterix_recording(stream, path, parameters);
+        if (stream->follow) {
+            fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an ASTERIX recording",
+                 path);
+        }
+        stream->asterix = asterix_plot_rows_open(path, parameters, stream->keep_going);
+        table_free(stream->table);
+        stream->table =
+            asterix_plot_rows_empty_table(path, asterix_plot_rows_columns(stream->asterix));
         return stream;
     }
     stream->file = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
@@ -653,8 +620,6 @@ struct table *table_read_csv_or_asterix(const char *path, const struct parameter
     }
     return parse_whole_and_free_stream(stream);
 }
-
-/* ---- Row by row ---- */
 
 struct table_stream *table_stream_open(const char *path, const struct parameters *parameters,
                                        bool keep_going, bool follow)

@@ -16,8 +16,6 @@
 #define HOLD_MAX_MS 10000.0
 #define LATE_MAX_S 60.0
 
-/* ---- Kinds ---- */
-
 unsigned log_scans_kinds(const char *path)
 {
     struct lcm_log_reader *reader;
@@ -40,8 +38,6 @@ unsigned log_scans_kinds(const char *path)
     lcm_log_close(reader);
     return kinds;
 }
-
-/* ---- Scans ---- */
 
 struct log_scans {
     const char *path;
@@ -73,28 +69,23 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
     return llround(parameters->value[PARAMETER_HOLD_MS] * 1e3) + largest_us - least_us;
 }
 
-/*
- * Sets the assembler's waits. Where the caller holds the scans, with more room than the assembler,
- * which would drop out-of-sequence scans, the assembler waits only for the sensors' clocks.
- * late_max_s grows by the whole wait, so that scans held for it are not dropped as too late.
- */
-static void set_assembler_hold(struct parameters *parameters, bool caller_holds_scans)
-{
-    double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
-    double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
-
-    parameters->value[PARAMETER_HOLD_MS] =
-        fmin(caller_holds_scans ? clocks_ms : hold_ms, HOLD_MAX_MS);
-    parameters->value[PARAMETER_LATE_MAX_S] =
-        fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
-}
-
 /* Opens the log, and sets the assembler to its state before the first event. */
 static void open_log_and_assembler(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    set_assembler_hold(&parameters, scans->is_held);
+    /*
+     * Sets the assembler's waits. Where the caller holds the scans, with more room than the
+     * assembler, which would drop out-of-sequence scans, the assembler waits only for the sensors'
+     * clocks. late_max_s grows by the whole wait, so that scans held for it are not dropped as too
+     * late.
+     */
+    double hold_ms = (double)log_scans_hold_us(&parameters) * 1e-3;
+    double clocks_ms = hold_ms - parameters.value[PARAMETER_HOLD_MS];
+
+    parameters.value[PARAMETER_HOLD_MS] = fmin(scans->is_held ? clocks_ms : hold_ms, HOLD_MAX_MS);
+    parameters.value[PARAMETER_LATE_MAX_S] =
+        fmin(parameters.value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
     parameters_to_assembler(&parameters, scans->assembler);
     scans->assembler->config.is_record = 1;
     scans->order = (struct out_of_sequence_counts){0};
@@ -115,16 +106,6 @@ static void offer_event_to_assembler(struct log_scans *scans)
     scans->has_event =
         out_of_sequence_counts_take(&scans->order, scans->assembler, event->channel, event->data,
                                     event->size, event->utime) == RHO_ERROR_CAPACITY;
-}
-
-static void read_and_offer_event(struct log_scans *scans)
-{
-    scans->is_over = !lcm_log_next(scans->reader, &scans->event);
-    if (!scans->is_over) {
-        scans->clock_us =
-            scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
-        offer_event_to_assembler(scans);
-    }
 }
 
 static int64_t assembler_clock_us(const struct log_scans *scans)
@@ -148,7 +129,12 @@ static bool assemble_next_scan(struct log_scans *scans, struct rho_scan_assemble
             return false;
         }
         if (!scans->has_event) {
-            read_and_offer_event(scans);
+            scans->is_over = !lcm_log_next(scans->reader, &scans->event);
+            if (!scans->is_over) {
+                scans->clock_us =
+                    scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
+                offer_event_to_assembler(scans);
+            }
         }
     }
 }
@@ -200,8 +186,6 @@ static void preview_scans(struct log_scans *scans, uint64_t file_bytes, bool kee
     }
     progress_end(&progress);
 }
-
-/* ---- What was wrong ---- */
 
 static void report_assembler_faults(const char *path,
                                     const struct rho_scan_assembler_counters *counters,

@@ -29,31 +29,20 @@ struct message_source {
     struct input *taken; /* input whose message was handed out; the next call advances it */
 };
 
-static void next_log_event(struct input *input)
-{
-    input->has_event = lcm_log_next(input->log, &input->log_event);
-    input->event = (struct message_event){.utime = input->log_event.utime,
-                                          .channel = input->log_event.channel,
-                                          .data = input->log_event.data,
-                                          .size = input->log_event.size};
-}
-
-/* Makes the next message of a CSV file's rows. */
-static void next_message_of_rows(struct input *input)
-{
-    input->has_event = rows_to_messages_next_message(&input->scans, &input->at, &input->output);
-    input->event = (struct message_event){.utime = input->output.utime,
-                                          .channel = input->output.channel,
-                                          .data = input->output.data,
-                                          .size = input->output.size};
-}
-
 static void advance_to_next_message(struct input *input)
 {
     if (input->log) {
-        next_log_event(input);
+        input->has_event = lcm_log_next(input->log, &input->log_event);
+        input->event = (struct message_event){.utime = input->log_event.utime,
+                                              .channel = input->log_event.channel,
+                                              .data = input->log_event.data,
+                                              .size = input->log_event.size};
     } else {
-        next_message_of_rows(input);
+        input->has_event = rows_to_messages_next_message(&input->scans, &input->at, &input->output);
+        input->event = (struct message_event){.utime = input->output.utime,
+                                              .channel = input->output.channel,
+                                              .data = input->output.data,
+                                              .size = input->output.size};
     }
 }
 

@@ -334,28 +334,6 @@ void clutter_map_file_copy_saved_content(struct rho_clutter_map *to,
     }
 }
 
-static void write_echo(FILE *file, const struct clutter_echo *echo)
-{
-    char x[FLOAT_TEXT_BYTES], y[FLOAT_TEXT_BYTES], range[FLOAT_TEXT_BYTES], cross[FLOAT_TEXT_BYTES];
-
-    fprintf(file, "%" PRId32 ",%s,%s,%s,%s,%u,,,,\n", echo->sensor_id,
-            shortest_float_text(echo->x_m, x), shortest_float_text(echo->y_m, y),
-            shortest_float_text(echo->sigma_range_m, range),
-            shortest_float_text(echo->sigma_cross_m, cross), (unsigned)echo->hits);
-}
-
-static void write_return_counts(FILE *file, const struct return_counts *counts)
-{
-    char looks[FLOAT_TEXT_BYTES], returns[FLOAT_TEXT_BYTES], region[8] = "";
-
-    if (counts->region != ALL_REGIONS) {
-        snprintf(region, sizeof region, "%u", (unsigned)counts->region);
-    }
-    fprintf(file, ",,,,,%u,%s,%u,%s,%s\n", (unsigned)counts->hits, region, (unsigned)counts->unseen,
-            shortest_float_text(counts->looks, looks),
-            shortest_float_text(counts->returns, returns));
-}
-
 static bool write_map(FILE *file, const struct rho_clutter_map *map)
 {
     struct clutter_echo echo;
@@ -367,10 +345,23 @@ static bool write_map(FILE *file, const struct rho_clutter_map *map)
           "sensor_id,x_m,y_m,sigma_range_m,sigma_cross_m,hits,region,unseen,looks,returns\n",
           file);
     for (uint32_t place = 0; next_standing_echo(map, &place, &echo);) {
-        write_echo(file, &echo);
+        char x[FLOAT_TEXT_BYTES], y[FLOAT_TEXT_BYTES], range[FLOAT_TEXT_BYTES],
+            cross[FLOAT_TEXT_BYTES];
+
+        fprintf(file, "%" PRId32 ",%s,%s,%s,%s,%u,,,,\n", echo.sensor_id,
+                shortest_float_text(echo.x_m, x), shortest_float_text(echo.y_m, y),
+                shortest_float_text(echo.sigma_range_m, range),
+                shortest_float_text(echo.sigma_cross_m, cross), (unsigned)echo.hits);
     }
     for (unsigned at = 0; next_return_counts(map, &at, &counts);) {
-        write_return_counts(file, &counts);
+        char looks[FLOAT_TEXT_BYTES], returns[FLOAT_TEXT_BYTES], region[8] = "";
+
+        if (counts.region != ALL_REGIONS) {
+            snprintf(region, sizeof region, "%u", (unsigned)counts.region);
+        }
+        fprintf(file, ",,,,,%u,%s,%u,%s,%s\n", (unsigned)counts.hits, region,
+                (unsigned)counts.unseen, shortest_float_text(counts.looks, looks),
+                shortest_float_text(counts.returns, returns));
     }
     return !ferror(file);
 }

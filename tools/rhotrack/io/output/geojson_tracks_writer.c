@@ -56,8 +56,6 @@ struct geojson *geojson_open(FILE *file, const struct parameters *parameters)
     return geojson;
 }
 
-/* ---- Places on the earth ---- */
-
 /* Rounds to 1/steps, so that no more digits are written. */
 static double round_to_steps(double value, double steps)
 {
@@ -88,8 +86,6 @@ static cJSON *lon_lat_alt_json_array(const double on_earth[3], bool has_height)
     }
     return position;
 }
-
-/* ---- Properties ---- */
 
 static cJSON *time_in_seconds_json(double time_us)
 {
@@ -144,8 +140,6 @@ static cJSON *properties_json(const struct geojson *geojson, const struct track 
     cJSON_AddNumberToObject(properties, "misses", track->last.misses);
     return properties;
 }
-
-/* ---- Features ---- */
 
 static void write_feature(struct geojson *geojson, cJSON *geometry, cJSON *properties)
 {
@@ -267,8 +261,6 @@ static void write_and_free_track(struct geojson *geojson, struct track *track)
     free(track->points);
     free(track);
 }
-
-/* ---- Tracks ---- */
 
 static struct track *find_or_add_track(struct geojson *geojson, int32_t track_id)
 {

@@ -159,19 +159,14 @@ static void add_track_to_geojson(struct geojson *map, int64_t time_us,
     geojson_add_row(map, &row);
 }
 
-/* Adds all tracks of a report; tracks that are not in it have ended. */
-static void add_report_to_geojson(struct geojson *map, const struct rho_report *report)
-{
-    for (int i = 0; i < report->num_tracks; i++) {
-        add_track_to_geojson(map, report->time_us, &report->tracks[i]);
-    }
-    geojson_end_time(map);
-}
-
 void tracks_output_write_report(struct tracks_output *tracks, const struct rho_report *report)
 {
     if (tracks->map) {
-        add_report_to_geojson(tracks->map, report);
+        /* tracks that are not in the report have ended */
+        for (int i = 0; i < report->num_tracks; i++) {
+            add_track_to_geojson(tracks->map, report->time_us, &report->tracks[i]);
+        }
+        geojson_end_time(tracks->map);
     } else if (tracks->is_log || tracks->asterix) {
         write_track_list(tracks, report);
         if (tracks->is_log) {

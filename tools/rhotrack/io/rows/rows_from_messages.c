@@ -10,8 +10,6 @@
 
 #define SCAN_SHIFT 24 /* a scan has fewer than 2^24 rows: 32767 parts of 256 */
 
-/* ---- Messages ---- */
-
 void rows_from_messages_start(struct rows_collection *collection, const struct rows_kind *kind)
 {
     *collection = (struct rows_collection){.count = 0};
@@ -45,13 +43,6 @@ static const char *describe_bad_message(enum rho_status status, const struct row
     return reason;
 }
 
-/* Removes the rows of the newest message, down to a count of rows. */
-static void drop_newest_rows(struct rows *rows, size_t num_kept)
-{
-    rows->num_cells = rows->list[num_kept].cells;
-    rows->count = num_kept;
-}
-
 const char *rows_from_messages_add(struct rows_collection *collection, const char *channel,
                                    const uint8_t *data, size_t size,
                                    char reason[ROWS_FROM_MESSAGES_REASON_BYTES])
@@ -67,7 +58,8 @@ const char *rows_from_messages_add(struct rows_collection *collection, const cha
     }
     if (kind->has_sensor &&
         strtol(channel + strlen(kind->channel), NULL, 10) != message.key.sensor_id) {
-        drop_newest_rows(&collection->rows, before);
+        collection->rows.num_cells = collection->rows.list[before].cells;
+        collection->rows.count = before;
         return "sensor_id is not that of the channel";
     }
     message.received_us = message.key.time_us;
@@ -100,8 +92,6 @@ void rows_from_messages_add_event(struct rows_collection *collection, const char
         collection->rows.has_received |= event->utime != message->key.time_us;
     }
 }
-
-/* ---- Messages that belong together ---- */
 
 /* Order by sensor, epoch, scan and time. */
 static int compare_scans(const struct rows_message *one, const struct rows_message *other)

@@ -64,8 +64,6 @@ bool bearing_frame_reader_file_has_bearings(const char *path)
     return is_bearings;
 }
 
-/* ---- Scans in order ---- */
-
 /*
  * Handles a second scan of one sensor at one time: exit 2, or counts its rows as skipped and frees
  * it.
@@ -118,8 +116,6 @@ static bool read_next_scan(struct bearing_frame_reader *reader, struct sensor_sc
     reader->counts.bearings += scan->bearings.num_bearings;
     return true;
 }
-
-/* ---- Scans to frames ---- */
 
 /*
  * Whether a scan that is not before the frame belongs to it: within the tolerance, of another
@@ -182,8 +178,6 @@ const struct rho_frame *bearing_frame_reader_next(struct bearing_frame_reader *r
     }
     return NULL;
 }
-
-/* ---- All files ---- */
 
 static int compare_sensors(const void *a, const void *b)
 {
@@ -266,8 +260,6 @@ void bearing_reader_need_two(const struct bearing_frame_reader *reader)
              only->path, (unsigned)only->line, (int)only->sensor.sensor_id);
     }
 }
-
-/* ---- What was read ---- */
 
 void bearing_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames)
 {

@@ -23,8 +23,6 @@ static int64_t reception_time_or_row_time_us(const struct rows_to_scans *gather,
     return gather->has_clock ? gather->clock_us : time_us;
 }
 
-/* ---- Rows ---- */
-
 /* The sensor's newest scan in memory; NULL where there is none. */
 static struct gathered_scan *newest_scan_of_sensor(struct rows_to_scans *gather, int32_t sensor_id)
 {
@@ -92,20 +90,15 @@ static void note_last_heard_time(struct rows_to_scans *gather, struct gathered_s
     gather->has_rows = true;
 }
 
-/* Counts, in each open scan of the sensor, one more scan that began after it. */
-static void count_newer_scan(struct rows_to_scans *gather, int32_t sensor_id)
-{
-    for (size_t i = 0; i < gather->count; i++) {
-        gather->scans[i].begun_since += gather->scans[i].sensor_id == sensor_id;
-    }
-}
-
 struct gathered_scan *rows_to_scans_begin_scan(struct rows_to_scans *gather,
                                                const struct gathered_scan *heading, int64_t time_us)
 {
     struct gathered_scan *begun;
 
-    count_newer_scan(gather, heading->sensor_id);
+    /* Counts, in each open scan of the sensor, one more scan that began after it. */
+    for (size_t i = 0; i < gather->count; i++) {
+        gather->scans[i].begun_since += gather->scans[i].sensor_id == heading->sensor_id;
+    }
     gather->scans = must_make_room_for_one(gather->scans, gather->count, &gather->capacity,
                                            sizeof *gather->scans);
     begun = &gather->scans[gather->count++];
@@ -144,8 +137,6 @@ void rows_to_scans_add_empty_row(struct rows_to_scans *gather, struct gathered_s
     }
     note_last_heard_time(gather, scan, time_us);
 }
-
-/* ---- Scans ---- */
 
 /*
  * Whether a scan gathered over an interval is complete by reception times, which lag by different

@@ -32,8 +32,6 @@ struct scan_source {
     uint64_t rows_skipped;         /* bad rows found here; the stream counts its own */
 };
 
-/* ---- Rows to scans ---- */
-
 /* Checks that a row has the values that all rows of its scan must share. */
 static bool check_row_fits_scan(const struct scan_source *source, const struct gathered_scan *scan,
                                 const struct measurement_row *row, const struct row_check *check)
@@ -205,8 +203,6 @@ static void process_next_row(struct scan_source *source)
     }
 }
 
-/* ---- Scans ---- */
-
 static void fill_plot_scan(struct sensor_scan *out, const struct gathered_scan *scan)
 {
     struct rho_plot *plots = scan->elements;
@@ -244,19 +240,6 @@ static void fill_bearing_scan(struct sensor_scan *out, const struct gathered_sca
                                 .line = scan->line};
 }
 
-static void fill_sensor_scan(const struct scan_source *source, struct sensor_scan *out,
-                             struct gathered_scan *scan)
-{
-    if (source->options.kind == RECORD_BEARINGS) {
-        fill_bearing_scan(out, scan);
-    } else {
-        fill_plot_scan(out, scan);
-    }
-    out->path = source->path;
-    scan->elements = NULL;
-    gathered_scan_free(scan);
-}
-
 /* Takes the next complete scan of a table. *heard_us: reception time of its last row. */
 static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *scan,
                                int64_t *heard_us)
@@ -274,7 +257,14 @@ static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *s
         }
     }
     *heard_us = gathered.heard_us;
-    fill_sensor_scan(source, scan, &gathered);
+    if (source->options.kind == RECORD_BEARINGS) {
+        fill_bearing_scan(scan, &gathered);
+    } else {
+        fill_plot_scan(scan, &gathered);
+    }
+    scan->path = source->path;
+    gathered.elements = NULL;
+    gathered_scan_free(&gathered);
     return true;
 }
 
@@ -392,8 +382,6 @@ bool scan_source_next(struct scan_source *source, struct sensor_scan *scan)
     return source->log ? next_log_scan_in_order(source, scan) : next_table_scan(source, scan);
 }
 
-/* ---- Opening ---- */
-
 /*
  * Whether turns may be searched for: the file can be read twice, and states neither numbers nor
  * sectors of scans.
@@ -477,20 +465,6 @@ static void open_rows_and_find_turns(struct scan_source *source)
     }
 }
 
-/*
- * Plots are reordered here, with unlimited room; bearings by the scan assembler. For a log of both
- * kinds only the reader of plots reports faults.
- */
-static void open_log(struct scan_source *source)
-{
-    bool is_plots = source->options.kind == RECORD_PLOTS;
-
-    source->reorder.hold_us = is_plots ? log_scans_hold_us(source->parameters) : 0;
-    source->log =
-        log_scans_open(source->path, source->parameters, source->options.keep_going,
-                       is_plots || log_scans_kinds(source->path) == LOG_HAS_BEARINGS, is_plots);
-}
-
 struct scan_source *scan_source_open(const char *path, const struct parameters *parameters,
                                      struct scan_source_options options)
 {
@@ -504,7 +478,16 @@ struct scan_source *scan_source_open(const char *path, const struct parameters *
     } else if (options.follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an LCM log", path);
     } else {
-        open_log(source);
+        /*
+         * Plots are reordered here, with unlimited room; bearings by the scan assembler. For a log
+         * of both kinds only the reader of plots reports faults.
+         */
+        bool is_plots = source->options.kind == RECORD_PLOTS;
+
+        source->reorder.hold_us = is_plots ? log_scans_hold_us(source->parameters) : 0;
+        source->log =
+            log_scans_open(source->path, source->parameters, source->options.keep_going,
+                           is_plots || log_scans_kinds(source->path) == LOG_HAS_BEARINGS, is_plots);
     }
     return source;
 }

@@ -25,8 +25,6 @@ struct reading {
     size_t num_sensors, capacity;
 };
 
-/* ---- Sensors ---- */
-
 static struct turning_sensor *find_or_add_sensor(struct reading *reading,
                                                  const struct rho_scan *scan)
 {
@@ -79,8 +77,6 @@ static bool push_and_test_turn_continues(struct turning_sensor *turning,
     }
     return is_further;
 }
-
-/* ---- Turns ---- */
 
 static void add_plots_to_turn(struct revolution *turn, const struct rho_scan *scan)
 {

@@ -43,8 +43,6 @@ static double plot_azimuth(const struct turn_plot *plot)
     return atan2(plot->y_m, plot->x_m);
 }
 
-/* ---- Azimuths that turn ---- */
-
 /* Times and azimuths of the plots to which a rotation rate is fitted. */
 struct fitted {
     size_t count;
@@ -224,8 +222,6 @@ static bool find_rule_by_azimuths(const struct turn_plot *plots, size_t count, d
     return true;
 }
 
-/* ---- Gaps ---- */
-
 static int compare_int64(const void *a, const void *b)
 {
     const int64_t one = *(const int64_t *)a, other = *(const int64_t *)b;
@@ -297,8 +293,6 @@ static bool find_rule_by_time_gaps(const struct turn_plot *plots, size_t count,
     rule->turn_s = turn_s;
     return true;
 }
-
-/* ---- The rule ---- */
 
 /* Number of plots that share their time with others, and how much such plots share a direction. */
 struct simultaneous {
