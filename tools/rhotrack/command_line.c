@@ -71,7 +71,7 @@ static const char *option_name_at(size_t index)
     return index < NUM_OPTIONS ? options[index].name : NULL;
 }
 
-void command_line_print_help(const struct command *command, FILE *file)
+static void print_command_help(const struct command *command, FILE *file)
 {
     fprintf(file, "Usage: rhotrack %s %s\n\n%s\nOptions:\n", command->name, command->usage,
             command->text);
@@ -95,7 +95,7 @@ static _Noreturn void print_help_and_exit(const struct command *command)
 {
     struct output output = output_open(NULL);
 
-    command_line_print_help(command, output.file);
+    print_command_help(command, output.file);
     output_close(&output);
     exit(0);
 }

@@ -37,25 +37,20 @@ static bool is_decimal(const char *cell)
     return has_digits && !*c;
 }
 
-static const char *fault_of_non_decimal_cell(const char *cell)
-{
-    const char *word = cell + (*cell == '+' || *cell == '-');
-
-    if (!*cell) {
-        return "is empty";
-    }
-    if (!strcasecmp(word, "nan") || !strcasecmp(word, "inf") || !strcasecmp(word, "infinity")) {
-        return "is not finite";
-    }
-    return "is not a number";
-}
-
 const char *parse_number_or_give_reason(const char *cell, double *value)
 {
     double number;
 
     if (!is_decimal(cell)) {
-        return fault_of_non_decimal_cell(cell);
+        const char *word = cell + (*cell == '+' || *cell == '-');
+
+        if (!*cell) {
+            return "is empty";
+        }
+        if (!strcasecmp(word, "nan") || !strcasecmp(word, "inf") || !strcasecmp(word, "infinity")) {
+            return "is not finite";
+        }
+        return "is not a number";
     }
     number = strtod(cell, NULL);
     if (!(fabs(number) <= (double)FLT_MAX)) {

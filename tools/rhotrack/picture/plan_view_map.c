@@ -102,7 +102,7 @@ size_t map_num_plots_drawn(size_t count)
  * Samples one plot of each of MAP_PLOTS_MAX equal parts of the list, at a pseudo-random place
  * within the part, so that samples do not follow the period of the scans.
  */
-size_t map_sampled_plot_index(size_t k, size_t count)
+static size_t sampled_plot_index(size_t k, size_t count)
 {
     if (count <= MAP_PLOTS_MAX) {
         return k;
@@ -116,7 +116,7 @@ void map_write_sampled_plots(const struct map *map, const struct plot_points *pl
 {
     fprintf(map->script, "$plots << EOD\n");
     for (size_t k = 0; k < map_num_plots_drawn(plots->count); k++) {
-        map_write_point(map, &plots->list[map_sampled_plot_index(k, plots->count)], zero_us);
+        map_write_point(map, &plots->list[sampled_plot_index(k, plots->count)], zero_us);
     }
     fprintf(map->script, "EOD\n");
 }

@@ -50,12 +50,8 @@ void map_write_point(const struct map *map, const struct plot_point *point, int6
 /* Writes the points as a data block $name; two blank lines separate identities. */
 void map_write_points(const struct map *map, const char *name, const struct plot_points *points);
 
-/*
- * Number of plots drawn of `count`, and index of the k-th drawn one: evenly spread, but not in step
- * with the scans.
- */
+/* Number of plots drawn of `count`. */
 size_t map_num_plots_drawn(size_t count);
-size_t map_sampled_plot_index(size_t k, size_t count);
 
 /* Writes the drawn plots as the data block $plots. */
 void map_write_sampled_plots(const struct map *map, const struct plot_points *plots,

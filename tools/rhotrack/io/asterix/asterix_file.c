@@ -37,7 +37,8 @@ static bool is_wanted_category(const struct asterix_file *file, uint8_t category
                : asterix_category_is_plots(category) || asterix_category_is_service(category);
 }
 
-bool asterix_block_is_good(const uint8_t *data, size_t size)
+/* Whether the bytes begin with a data block of a known category whose records can all be read. */
+static bool is_block_good(const uint8_t *data, size_t size)
 {
     struct asterix_block block;
     struct asterix_record record;
@@ -61,7 +62,7 @@ static bool begins_with_good_block(const char *path)
 {
     uint8_t *bytes = must_alloc(ASTERIX_BLOCK_MAX);
     FILE *file = fopen(path, "rb");
-    bool is_good = file && asterix_block_is_good(bytes, fread(bytes, 1, ASTERIX_BLOCK_MAX, file));
+    bool is_good = file && is_block_good(bytes, fread(bytes, 1, ASTERIX_BLOCK_MAX, file));
 
     if (file) {
         fclose(file);
@@ -184,7 +185,7 @@ static void advance_to_good_block(struct asterix_file *file)
     for (;;) {
         fill_buffer(file);
         if (file->at == file->size ||
-            asterix_block_is_good(file->bytes + file->at, file->size - file->at)) {
+            is_block_good(file->bytes + file->at, file->size - file->at)) {
             return;
         }
         file->at++;
@@ -215,7 +216,7 @@ static void fail_or_skip_bad_block(struct asterix_file *file, const struct aster
         fail_at_bad_byte(file, error);
     }
     if (end > file->at &&
-        (end == file->size || asterix_block_is_good(file->bytes + end, file->size - end))) {
+        (end == file->size || is_block_good(file->bytes + end, file->size - end))) {
         file->at = end;
     } else {
         file->at++;

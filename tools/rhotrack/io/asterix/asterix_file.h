@@ -24,9 +24,6 @@
  */
 bool asterix_file_is_asterix(const char *path);
 
-/* Whether the bytes begin with a data block of a known category whose records can all be read. */
-bool asterix_block_is_good(const uint8_t *data, size_t size);
-
 /*
  * The first place of a radar that a recording states; is_given is false where there is none, and
  * for other files. Bad blocks are skipped without a report.

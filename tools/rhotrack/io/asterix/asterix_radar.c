@@ -56,7 +56,7 @@ bool asterix_radar_unwrap_time(struct asterix_radar *sensor, uint32_t time_of_da
     return true;
 }
 
-void asterix_scan_plots_add(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark)
+static void add_plot_to_scan(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark)
 {
     marks->list =
         must_make_room_for_one(marks->list, marks->count, &marks->capacity, sizeof *marks->list);
@@ -96,7 +96,7 @@ static bool place_plot_in_look(struct asterix_radar *sensor, const struct asteri
         }
     }
     if (nearest) {
-        asterix_scan_plots_add(&nearest->marks, mark);
+        add_plot_to_scan(&nearest->marks, mark);
     }
     return nearest;
 }
@@ -224,7 +224,7 @@ void asterix_radar_place_plot(struct asterix_radar *sensor, const struct asterix
                               int64_t hold_128)
 {
     if (!place_plot_in_look(sensor, mark, hold_128)) {
-        asterix_scan_plots_add(&sensor->waiting, mark);
+        add_plot_to_scan(&sensor->waiting, mark);
     }
 }
 
@@ -250,13 +250,13 @@ void asterix_radar_add_timed_plot(struct asterix_radar *sensor,
         interval_128 > 0 ? find_scan_begun_before(sensor, mark->time_128) : NULL;
 
     if (!open || mark->time_128 >= open->look.end_128) {
-        asterix_scan_plots_add(&add_open_scan(sensor, &look, false)->marks, mark);
+        add_plot_to_scan(&add_open_scan(sensor, &look, false)->marks, mark);
         return;
     }
     if (mark->time_128 < open->look.start_128) {
         open->look.start_128 = mark->time_128;
     }
-    asterix_scan_plots_add(&open->marks, mark);
+    add_plot_to_scan(&open->marks, mark);
 }
 
 void asterix_radar_drop_waiting(struct asterix_radar *sensor, bool all,
@@ -314,7 +314,7 @@ bool asterix_radar_extend_turn(struct asterix_radar *sensor, struct asterix_open
     turn->look.end_128 = open->look.end_128;
     turn->look.advance += open->look.advance;
     for (size_t i = 0; i < open->marks.count; i++) {
-        asterix_scan_plots_add(&turn->marks, &open->marks.list[i]);
+        add_plot_to_scan(&turn->marks, &open->marks.list[i]);
     }
     free(open->marks.list);
     return true;

@@ -94,7 +94,6 @@ void asterix_keep_common_quantities(struct asterix_scan_plots *marks,
                                     const struct asterix_place *place,
                                     struct asterix_counts *counts);
 
-void asterix_scan_plots_add(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark);
 void asterix_radar_free(struct asterix_radar *sensor);
 
 #endif

@@ -196,25 +196,18 @@ static bool read_sigmas(const struct row_reading *reading, struct measurement_ro
     return true;
 }
 
-static bool read_geodetic_place(const struct row_reading *reading, struct rho_plot *plot,
-                                bool *has_z)
-{
-    double place_m[3];
-
-    if (!geodetic_read_place(reading->columns->geodetic, &reading->cells, place_m, has_z)) {
-        return false;
-    }
-    plot->x_m = (float)place_m[0];
-    plot->y_m = (float)place_m[1];
-    plot->z_m = (float)place_m[2];
-    return true;
-}
-
 static bool read_place(const struct row_reading *reading, struct rho_plot *plot, bool *has_z)
 {
-
     if (geodetic_has_places(reading->columns->geodetic)) {
-        return read_geodetic_place(reading, plot, has_z);
+        double place_m[3];
+
+        if (!geodetic_read_place(reading->columns->geodetic, &reading->cells, place_m, has_z)) {
+            return false;
+        }
+        plot->x_m = (float)place_m[0];
+        plot->y_m = (float)place_m[1];
+        plot->z_m = (float)place_m[2];
+        return true;
     }
     *has_z = row_has_cell(&reading->cells, COL_Z_M);
     return row_read_position(&reading->cells, COL_X_M, &plot->x_m) &&

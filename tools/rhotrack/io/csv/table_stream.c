@@ -476,24 +476,18 @@ static void process_line(struct table_stream *stream, size_t length)
     }
 }
 
-/* Reads the next row of an ASTERIX recording, whose header is there from the start. */
-static enum table_stream_found next_asterix_row(struct table_stream *stream, bool to_header)
-{
-    if (to_header) {
-        return TABLE_STREAM_ROW;
-    }
-    if (!stream->is_whole) {
-        stream->table->num_rows = 0;
-    }
-    stream->is_end = !asterix_plot_rows_next(stream->asterix, stream->table);
-    return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
-}
-
 /* Reads on to the next row, or with to_header to the header. */
 static enum table_stream_found parse_to_row(struct table_stream *stream, bool to_header)
 {
     if (stream->asterix) {
-        return next_asterix_row(stream, to_header);
+        if (to_header) {
+            return TABLE_STREAM_ROW; /* the header of a recording is there from the start */
+        }
+        if (!stream->is_whole) {
+            stream->table->num_rows = 0;
+        }
+        stream->is_end = !asterix_plot_rows_next(stream->asterix, stream->table);
+        return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
     }
     stream->has_row = false;
     while (!stream->has_row && !(to_header && stream->table->names)) {

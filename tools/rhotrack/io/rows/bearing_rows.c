@@ -71,10 +71,7 @@ static enum rho_status decode_bearing_scan_to_rows(const uint8_t *data, size_t s
     if (status != RHO_OK) {
         return status;
     }
-    const struct row key = {.time_us = message.utime,
-                            .sensor_id = message.sensor_id,
-                            .epoch = message.epoch,
-                            .scan = message.scan};
+    const struct row key = ROWS_SENSOR_KEY(message);
 
     put_bearing_scan_cells(rows_begin_message(rows, out, &key, 0, 1, message.num_bearings),
                            &message);

@@ -112,15 +112,6 @@ static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffe
     return encode_checked(&message, buffer, field);
 }
 
-static void put_sector_cells(double *cells, const struct rho_message_plot_scan *message)
-{
-    if (!rows_is_plus_zero(message->sector_from_rad) ||
-        !rows_is_plus_zero(message->sector_to_rad)) {
-        cells[SECTOR_FROM_RAD] = (double)message->sector_from_rad;
-        cells[SECTOR_TO_RAD] = (double)message->sector_to_rad;
-    }
-}
-
 static void put_plot_cells(double *cells, const struct rho_message_plot *plot, int kind)
 {
     cells[X_M] = (double)plot->x_m;
@@ -146,23 +137,19 @@ static enum rho_status decode_plot_scan_to_rows(const uint8_t *data, size_t size
                                                 struct rows_message *out, const char **field)
 {
     struct rho_message_plot_scan message;
+    double *cells;
     const enum rho_status status = decode_checked(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;
     }
-    const struct row key = {.time_us = message.utime,
-                            .sensor_id = message.sensor_id,
-                            .epoch = message.epoch,
-                            .scan = message.scan};
+    const struct row key = ROWS_SENSOR_KEY(message);
 
-    put_sector_cells(
-        rows_begin_message(rows, out, &key, message.part, message.num_parts, message.num_plots),
-        &message);
+    cells = rows_begin_message(rows, out, &key, message.part, message.num_parts, message.num_plots);
+    rows_put_sector(&cells[SECTOR_FROM_RAD], message.sector_from_rad, message.sector_to_rad);
     for (int i = 0; i < message.num_plots; i++) {
-        double *cells = rows_add_message_row(rows, out, message.plots[i].dt_us);
-
-        put_sector_cells(cells, &message);
+        cells = rows_add_message_row(rows, out, message.plots[i].dt_us);
+        rows_put_sector(&cells[SECTOR_FROM_RAD], message.sector_from_rad, message.sector_to_rad);
         put_plot_cells(cells, &message.plots[i], message.kind);
     }
     return RHO_OK;

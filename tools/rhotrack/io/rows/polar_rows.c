@@ -133,11 +133,7 @@ static void put_scan_cells(double *cells, const struct rho_message_polar_scan *m
     cells[SIGMA_AZIMUTH_RAD] = rows_zero_to_empty_cell(message->sigma_azimuth_rad);
     cells[SIGMA_ELEVATION_RAD] = rows_zero_to_empty_cell(message->sigma_elevation_rad);
     cells[SIGMA_RANGE_RATE_MPS] = rows_zero_to_empty_cell(message->sigma_range_rate_mps);
-    if (!rows_is_plus_zero(message->sector_from_rad) ||
-        !rows_is_plus_zero(message->sector_to_rad)) {
-        cells[SECTOR_FROM_RAD] = (double)message->sector_from_rad;
-        cells[SECTOR_TO_RAD] = (double)message->sector_to_rad;
-    }
+    rows_put_sector(&cells[SECTOR_FROM_RAD], message->sector_from_rad, message->sector_to_rad);
 }
 
 static void put_plot_cells(double *cells, const struct rho_message_polar_scan *message, int index)
@@ -165,10 +161,7 @@ static enum rho_status decode_polar_scan_to_rows(const uint8_t *data, size_t siz
     if (status != RHO_OK) {
         return status;
     }
-    const struct row key = {.time_us = message.utime,
-                            .sensor_id = message.sensor_id,
-                            .epoch = message.epoch,
-                            .scan = message.scan};
+    const struct row key = ROWS_SENSOR_KEY(message);
 
     put_scan_cells(rows_begin_message(rows, out, &key, message.part, message.num_parts,
                                       message.num_polar_plots),

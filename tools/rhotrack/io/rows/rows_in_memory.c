@@ -145,6 +145,14 @@ double rows_zero_to_empty_cell(float value)
     return rows_is_plus_zero(value) ? (double)NAN : (double)value;
 }
 
+void rows_put_sector(double cells[2], float from_rad, float to_rad)
+{
+    if (!rows_is_plus_zero(from_rad) || !rows_is_plus_zero(to_rad)) {
+        cells[0] = (double)from_rad;
+        cells[1] = (double)to_rad;
+    }
+}
+
 double *rows_begin_message(struct rows *rows, struct rows_message *message, const struct row *key,
                            int16_t part, int16_t num_parts, int count)
 {

@@ -171,12 +171,23 @@ float rows_float_or_zero(double cell);       /* 0 for an empty cell */
 double rows_zero_to_empty_cell(float value); /* empty for +0 */
 bool rows_is_plus_zero(float value);         /* +0, not -0 */
 
+/* Sets the two cells of a sector, unless it is not given. */
+void rows_put_sector(double cells[2], float from_rad, float to_rad);
+
 /*
  * Begins the rows of a message that has `count` elements: sets its key and its part, and adds the
  * row of the scan itself, whose cells it returns.
  */
 double *rows_begin_message(struct rows *rows, struct rows_message *message, const struct row *key,
                            int16_t part, int16_t num_parts, int count);
+
+/* The key of a message of a sensor's scan. */
+#define ROWS_SENSOR_KEY(message)                                                                   \
+    (struct row)                                                                                   \
+    {                                                                                              \
+        .time_us = (message).utime, .sensor_id = (message).sensor_id, .epoch = (message).epoch,    \
+        .scan = (message).scan                                                                     \
+    }
 
 /* Adds the row of an element, dt_us after the message's utime. */
 double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us);

@@ -138,22 +138,16 @@ void rows_to_scans_add_empty_row(struct rows_to_scans *gather, struct gathered_s
     note_last_heard_time(gather, scan, time_us);
 }
 
-/*
- * Whether a scan gathered over an interval is complete by reception times, which lag by different
- * delays: its sensor's next scan has begun, or two intervals have passed.
- */
-static bool is_interval_scan_complete(const struct rows_to_scans *gather,
-                                      const struct gathered_scan *scan, int64_t since_us)
-{
-    return scan->begun_since > 0 || since_us >= 2 * gather->interval_us;
-}
-
 static bool is_scan_complete(const struct rows_to_scans *gather, const struct gathered_scan *scan)
 {
     int64_t since_us = gather->last_us - scan->begun_us;
 
     if (gather->has_clock && gather->interval_us > 0 && !scan->number.is_given) {
-        return is_interval_scan_complete(gather, scan, since_us);
+        /*
+         * Whether a scan gathered over an interval is complete by reception times, which lag by
+         * different delays: its sensor's next scan has begun, or two intervals have passed.
+         */
+        return scan->begun_since > 0 || since_us >= 2 * gather->interval_us;
     }
     if (scan->number.is_given && since_us <= RHO_LIMIT_OFFSET_US &&
         !(gather->begun_max && scan->begun_since >= gather->begun_max)) {
