@@ -456,14 +456,6 @@ static void open_pipeline(struct tracking *tracking, const struct merged_inputs 
     check_and_set_passive_sensors(tracking, inputs, parameters);
 }
 
-static void check_clutter_map_is_separate(const struct command_line *line)
-{
-    for (int i = 0; i < line->num_arguments; i++) {
-        clutter_map_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
-    }
-    clutter_map_file_refuse_same_file(line->clutter_map, line->output, "output");
-}
-
 static struct merged_inputs *open_inputs(const struct command_line *line)
 {
     if (!line->follow) {
@@ -548,7 +540,10 @@ int command_track(struct command_line *line)
 
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
-    check_clutter_map_is_separate(line);
+    for (int i = 0; i < line->num_arguments; i++) {
+        clutter_map_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
+    }
+    clutter_map_file_refuse_same_file(line->clutter_map, line->output, "output");
     if (line->show && !tracks_output_path_is_log(line->output)) {
         fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
     }

@@ -21,24 +21,6 @@ static int64_t time_axis_origin_us(const struct evaluation_scan *scans, size_t c
 }
 
 /*
- * Writes a data block with a row a time: time; GOSPA and the roots of its missed, false and
- * localisation parts; numbers of targets, tracks, missed targets and false tracks.
- */
-static void put_values_over_time(FILE *script, const struct evaluation_scan *scans, size_t count)
-{
-    fprintf(script, "$scans << EOD\n");
-    for (size_t i = 0; i < count; i++) {
-        const struct evaluation_scan *scan = &scans[i];
-        fprintf(script, "%.6f %.6g %.6g %.6g %.6g %zu %zu %zu %zu\n",
-                (double)(scan->time_us - time_axis_origin_us(scans, count)) * 1e-6, scan->gospa_m,
-                sqrt(scan->missed_m2), sqrt(scan->false_m2), sqrt(scan->localisation_m2),
-                scan->targets, scan->tracks, scan->targets - scan->pairs,
-                scan->tracks - scan->pairs);
-    }
-    fprintf(script, "EOD\n");
-}
-
-/*
  * Defines the line styles of both panels: the total as a wide grey line, its parts as thin coloured
  * lines; points instead of lines where there is one time only.
  */
@@ -85,7 +67,20 @@ void evaluation_draw_gospa(const struct evaluation *e, const char *path)
     struct evaluation_result result = evaluation_result(e);
     struct picture picture = picture_open(path, 1100, 780);
     FILE *script = picture.script;
-    put_values_over_time(script, scans, count);
+    /*
+     * Writes a data block with a row a time: time; GOSPA and the roots of its missed, false and
+     * localisation parts; numbers of targets, tracks, missed targets and false tracks.
+     */
+    fprintf(script, "$scans << EOD\n");
+    for (size_t i = 0; i < count; i++) {
+        const struct evaluation_scan *scan = &scans[i];
+        fprintf(script, "%.6f %.6g %.6g %.6g %.6g %zu %zu %zu %zu\n",
+                (double)(scan->time_us - time_axis_origin_us(scans, count)) * 1e-6, scan->gospa_m,
+                sqrt(scan->missed_m2), sqrt(scan->false_m2), sqrt(scan->localisation_m2),
+                scan->targets, scan->tracks, scan->targets - scan->pairs,
+                scan->tracks - scan->pairs);
+    }
+    fprintf(script, "EOD\n");
     define_line_styles(script, count);
     define_time_axis(script, scans, count);
     fprintf(script, "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.79\n");

@@ -30,23 +30,6 @@ static size_t num_rays_drawn(const struct plot_rays *rays)
     return rays->count < RAYS_MAX ? rays->count : RAYS_MAX;
 }
 
-/*
- * Writes the rays of a sensor as a data block $rays0, $rays1, ..., so that each sensor has its
- * colour.
- */
-static void put_rays_of_sensor(const struct map *map, const struct plot_rays *rays, size_t sensor)
-{
-    fprintf(map->script, "$rays%zu << EOD\n", sensor);
-    for (size_t k = 0; k < num_rays_drawn(rays); k++) {
-        const struct plot_ray *ray = &rays->list[k * rays->count / num_rays_drawn(rays)];
-        if (ray->sensor == sensor) {
-            fprintf(map->script, "%.6g %.6g\n%.6g %.6g\n\n", ray->x_m / map->unit_m,
-                    ray->y_m / map->unit_m, ray->end_x_m / map->unit_m, ray->end_y_m / map->unit_m);
-        }
-    }
-    fprintf(map->script, "EOD\n");
-}
-
 static void put_sensors(const struct map *map, const struct plot_rays *rays)
 {
     fprintf(map->script, "$sensors << EOD\n");
@@ -106,7 +89,20 @@ void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *r
 void plot_bearings_write_data(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
-        put_rays_of_sensor(map, rays, i);
+        /*
+         * Writes the rays of a sensor as a data block $rays0, $rays1, ..., so that each sensor has
+         * its colour.
+         */
+        fprintf(map->script, "$rays%zu << EOD\n", i);
+        for (size_t k = 0; k < num_rays_drawn(rays); k++) {
+            const struct plot_ray *ray = &rays->list[k * rays->count / num_rays_drawn(rays)];
+            if (ray->sensor == i) {
+                fprintf(map->script, "%.6g %.6g\n%.6g %.6g\n\n", ray->x_m / map->unit_m,
+                        ray->y_m / map->unit_m, ray->end_x_m / map->unit_m,
+                        ray->end_y_m / map->unit_m);
+            }
+        }
+        fprintf(map->script, "EOD\n");
     }
     put_sensors(map, rays);
     fprintf(map->script,

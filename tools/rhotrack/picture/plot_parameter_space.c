@@ -30,21 +30,6 @@ static double rho_of_plot_m(const struct rho_plot *plot, double theta)
     return (double)plot->x_m * cos(theta) + (double)plot->y_m * sin(theta);
 }
 
-static void find_rho_range(struct votes *votes, const struct revolutions *revolutions)
-{
-    votes->rho_min_m = INFINITY;
-    votes->rho_max_m = -INFINITY;
-    for (size_t i = 0; i < revolutions->count; i++) {
-        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
-            for (int t = 0; t < THETA_CELLS; t++) {
-                double rho_m = rho_of_plot_m(&revolutions->list[i].plots[p], theta_of_cell_rad(t));
-                votes->rho_min_m = fmin(votes->rho_min_m, rho_m - 1.0);
-                votes->rho_max_m = fmax(votes->rho_max_m, rho_m + 1.0);
-            }
-        }
-    }
-}
-
 /* Counts the plot in one rho cell for each theta cell: the cells of all lines through it. */
 static void cast_votes_of_plot(struct votes *votes, const struct rho_plot *plot)
 {
@@ -120,7 +105,17 @@ void plot_hough_votes(struct picture *picture, const struct picture_data *data,
                       const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
-    find_rho_range(votes, revolutions);
+    votes->rho_min_m = INFINITY;
+    votes->rho_max_m = -INFINITY;
+    for (size_t i = 0; i < revolutions->count; i++) {
+        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
+            for (int t = 0; t < THETA_CELLS; t++) {
+                double rho_m = rho_of_plot_m(&revolutions->list[i].plots[p], theta_of_cell_rad(t));
+                votes->rho_min_m = fmin(votes->rho_min_m, rho_m - 1.0);
+                votes->rho_max_m = fmax(votes->rho_max_m, rho_m + 1.0);
+            }
+        }
+    }
     for (size_t i = 0; i < revolutions->count; i++) {
         for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
             cast_votes_of_plot(votes, &revolutions->list[i].plots[p]);

@@ -484,24 +484,6 @@ static struct path_step read_leg(struct json_object object, bool *has_height)
     return step;
 }
 
-static void read_velocity(struct json_object *object, struct target_item *item)
-{
-    double velocity_mps[3] = {0};
-
-    json_exclude_keys(object, "velocity_mps", "speed_mps");
-    json_exclude_keys(object, "velocity_mps", "heading_rad");
-    item->speed_mps = json_read_number(object, "speed_mps", 0, SPEED_MAX_MPS, 0);
-    item->heading_rad = json_read_number(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
-    if (read_xy_or_xyz(object, "velocity_mps", SPEED_MAX_MPS, velocity_mps, &item->has_height)) {
-        item->vz_mps = velocity_mps[2];
-        item->speed_mps = portable_hypot(velocity_mps[0], velocity_mps[1]);
-        item->heading_rad = portable_atan2(velocity_mps[1], velocity_mps[0]);
-    } else {
-        json_require_key(object, "speed_mps");
-        json_require_key(object, "heading_rad");
-    }
-}
-
 /* Reads the target that this one splits from. */
 static void read_split_parent(struct json_object *object, struct target_item *item,
                               const struct scene_targets *before)
@@ -586,7 +568,22 @@ static void read_described_path(struct json_object *object, struct target_item *
         item->x_m = place_m[0];
         item->y_m = place_m[1];
         item->z_m = place_m[2];
-        read_velocity(object, item);
+        double velocity_mps[3] = {0};
+
+        json_exclude_keys(object, "velocity_mps", "speed_mps");
+        json_exclude_keys(object, "velocity_mps", "heading_rad");
+        item->speed_mps = json_read_number(object, "speed_mps", 0, SPEED_MAX_MPS, 0);
+        item->heading_rad =
+            json_read_number(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
+        if (read_xy_or_xyz(object, "velocity_mps", SPEED_MAX_MPS, velocity_mps,
+                           &item->has_height)) {
+            item->vz_mps = velocity_mps[2];
+            item->speed_mps = portable_hypot(velocity_mps[0], velocity_mps[1]);
+            item->heading_rad = portable_atan2(velocity_mps[1], velocity_mps[0]);
+        } else {
+            json_require_key(object, "speed_mps");
+            json_require_key(object, "heading_rad");
+        }
     }
     struct json_list list = json_read_list(object, "legs", LEGS_MAX);
 

@@ -62,34 +62,6 @@ static void read_doppler(const uint8_t *item, struct asterix_plot *plot)
     }
 }
 
-static void read_heights(const struct asterix_record *record, struct asterix_plot *plot)
-{
-    const uint8_t *level = record->items[I048_090], *height = record->items[I048_110];
-
-    if (level) {
-        plot->has_level = true;
-        plot->is_level_bad = level[0] >> 6 != 0;
-        plot->level = (int16_t)sign_extend(read_unsigned(level, 2), 14);
-    }
-    if (height) {
-        plot->has_height = true;
-        plot->height = (int16_t)sign_extend(read_unsigned(height, 2), 14);
-    }
-}
-
-static void read_identity(const struct asterix_record *record, struct asterix_plot *plot)
-{
-    const uint8_t *mode_a = record->items[I048_070], *address = record->items[I048_220];
-    const uint8_t *track = record->items[I048_161];
-
-    plot->has_mode_a = mode_a;
-    plot->mode_a = mode_a ? (uint16_t)(read_unsigned(mode_a, 2) & 0xfff) : 0;
-    plot->has_address = address;
-    plot->address = address ? read_unsigned(address, 3) : 0;
-    plot->has_track = track;
-    plot->track = track ? (uint16_t)(read_unsigned(track, 2) & 0xfff) : 0;
-}
-
 static void read_cat048_plot(const struct asterix_record *record, struct asterix_plot *plot)
 {
     const uint8_t *time = record->items[I048_140], *position = record->items[I048_040];
@@ -107,11 +79,29 @@ static void read_cat048_plot(const struct asterix_record *record, struct asterix
         plot->range = (uint16_t)read_unsigned(position, 2);
         plot->azimuth = (uint16_t)read_unsigned(position + 2, 2);
     }
-    read_heights(record, plot);
+    const uint8_t *level = record->items[I048_090], *height = record->items[I048_110];
+
+    if (level) {
+        plot->has_level = true;
+        plot->is_level_bad = level[0] >> 6 != 0;
+        plot->level = (int16_t)sign_extend(read_unsigned(level, 2), 14);
+    }
+    if (height) {
+        plot->has_height = true;
+        plot->height = (int16_t)sign_extend(read_unsigned(height, 2), 14);
+    }
     if (record->items[I048_120]) {
         read_doppler(record->items[I048_120], plot);
     }
-    read_identity(record, plot);
+    const uint8_t *mode_a = record->items[I048_070], *address = record->items[I048_220];
+    const uint8_t *track = record->items[I048_161];
+
+    plot->has_mode_a = mode_a;
+    plot->mode_a = mode_a ? (uint16_t)(read_unsigned(mode_a, 2) & 0xfff) : 0;
+    plot->has_address = address;
+    plot->address = address ? read_unsigned(address, 3) : 0;
+    plot->has_track = track;
+    plot->track = track ? (uint16_t)(read_unsigned(track, 2) & 0xfff) : 0;
 }
 
 /* Items of CAT001 that both profiles have; cat001_item knows their indices. */

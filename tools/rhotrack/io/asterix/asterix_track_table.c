@@ -96,24 +96,6 @@ static double rms_sigma(double x, double y)
     return sqrt(0.5 * (x * x + y * y));
 }
 
-static void put_position_cells(const struct reading *reading, const struct asterix_track *track,
-                               double *cells)
-{
-    if (track->has_geodetic && reading->frame) {
-        const double geodetic[3] = {track->lat_deg, track->lon_deg,
-                                    track->has_altitude ? track->alt_m : 0};
-        double place_m[3];
-
-        local_frame_to_local(reading->frame, geodetic, place_m);
-        cells[AT_X_M] = place_m[0];
-        cells[AT_Y_M] = place_m[1];
-        cells[AT_Z_M] = track->has_altitude ? place_m[2] : (double)NAN;
-    } else {
-        cells[AT_X_M] = track->x_m;
-        cells[AT_Y_M] = track->y_m;
-    }
-}
-
 /* Fills velocity, acceleration and sigmas. */
 static void put_motion_cells(const struct asterix_track *track, double *cells)
 {
@@ -153,7 +135,19 @@ static void add_track_row(struct reading *reading, const struct asterix_track *t
                        : track->is_tentative ? RHO_MESSAGE_TRACK_TENTATIVE
                        : track->is_coasting  ? RHO_MESSAGE_TRACK_COASTING
                                              : RHO_MESSAGE_TRACK_CONFIRMED;
-    put_position_cells(reading, track, cells);
+    if (track->has_geodetic && reading->frame) {
+        const double geodetic[3] = {track->lat_deg, track->lon_deg,
+                                    track->has_altitude ? track->alt_m : 0};
+        double place_m[3];
+
+        local_frame_to_local(reading->frame, geodetic, place_m);
+        cells[AT_X_M] = place_m[0];
+        cells[AT_Y_M] = place_m[1];
+        cells[AT_Z_M] = track->has_altitude ? place_m[2] : (double)NAN;
+    } else {
+        cells[AT_X_M] = track->x_m;
+        cells[AT_Y_M] = track->y_m;
+    }
     put_motion_cells(track, cells);
     if (track->source.is_given) {
         cells[AT_SENSOR_ID] = asterix_sensor_id(&track->source);

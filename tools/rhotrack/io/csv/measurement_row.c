@@ -25,9 +25,9 @@ bool measurement_row_is_bearings(const struct table *table)
     return has_bearings_alone(&columns);
 }
 
-/* Refuses plots by name, rather than with a missing bearing_rad. */
-static void refuse_plots_as_bearings(const struct columns *columns)
+static void check_bearing_columns(struct columns *columns)
 {
+    /* Refuses plots by name, rather than with a missing bearing_rad. */
     static const struct {
         enum column_id column;
         const char *text;
@@ -41,11 +41,6 @@ static void refuse_plots_as_bearings(const struct columns *columns)
                               column_name(others[i].column));
         }
     }
-}
-
-static void check_bearing_columns(struct columns *columns)
-{
-    refuse_plots_as_bearings(columns);
     columns_need_both(columns, COL_SECTOR_FROM_RAD, COL_SECTOR_TO_RAD);
     (void)columns_need(columns, COL_T_S);
     (void)columns_need(columns, COL_SENSOR_ID);

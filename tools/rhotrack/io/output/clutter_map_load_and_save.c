@@ -44,12 +44,17 @@ struct clutter_row {
     struct return_counts counts;
 };
 
-/*
- * Refuses files of plots and tracks, which have positions and sensors too: the map would overwrite
- * them.
- */
-static void refuse_other_tables(const struct columns *columns)
+/* Checks the columns; returns NULL where x_m and y_m, not lat_deg and lon_deg, give positions. */
+static struct geodetic_columns *check_columns(const struct columns *columns,
+                                              const struct parameters *parameters)
 {
+    struct geodetic_columns *geodetic = NULL;
+
+    (void)columns_need(columns, COL_SENSOR_ID);
+    /*
+     * Refuses files of plots and tracks, which have positions and sensors too: the map would
+     * overwrite them.
+     */
     static const enum column_id others[] = {COL_T_S, COL_RANGE_M, COL_BEARING_RAD};
 
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
@@ -59,16 +64,6 @@ static void refuse_other_tables(const struct columns *columns)
                               column_name(others[i]));
         }
     }
-}
-
-/* Checks the columns; returns NULL where x_m and y_m, not lat_deg and lon_deg, give positions. */
-static struct geodetic_columns *check_columns(const struct columns *columns,
-                                              const struct parameters *parameters)
-{
-    struct geodetic_columns *geodetic = NULL;
-
-    (void)columns_need(columns, COL_SENSOR_ID);
-    refuse_other_tables(columns);
     if (columns->at[COL_LAT_DEG] >= 0) {
         geodetic = geodetic_open(columns->table, parameters);
     }

@@ -71,24 +71,6 @@ static void rotate_angle_cell(double *cell, double turn_rad)
     }
 }
 
-/*
- * Sets the radar's position, and turns the sector, which counts from the radar's own east, to the
- * local frame.
- */
-static void put_radar_place_and_sector(const struct rows_geodetic *geodetic,
-                                       const struct radar_axes *frame, double *cells)
-{
-    const double *place_m = radar_axes_place_m(frame);
-
-    rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_FROM_RAD), radar_axes_turn_rad(frame));
-    rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_TO_RAD), radar_axes_turn_rad(frame));
-    if (geodetic->kind == &rows_kind_polar) {
-        put_float_cell(geodetic, cells, COL_SENSOR_X_M, place_m[0]);
-        put_float_cell(geodetic, cells, COL_SENSOR_Y_M, place_m[1]);
-        put_float_cell(geodetic, cells, COL_SENSOR_Z_M, place_m[2]);
-    }
-}
-
 static struct geodetic_polar read_polar_cells(const struct rows_geodetic *geodetic,
                                               int32_t sensor_id, double *cells)
 {
@@ -157,7 +139,20 @@ bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic, const struct
         return false;
     }
     if (frame) {
-        put_radar_place_and_sector(geodetic, frame, cells);
+        /*
+         * Sets the radar's position, and turns the sector, which counts from the radar's own east,
+         * to the local frame.
+         */
+        const double *place_m = radar_axes_place_m(frame);
+
+        rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_FROM_RAD),
+                          radar_axes_turn_rad(frame));
+        rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_TO_RAD), radar_axes_turn_rad(frame));
+        if (geodetic->kind == &rows_kind_polar) {
+            put_float_cell(geodetic, cells, COL_SENSOR_X_M, place_m[0]);
+            put_float_cell(geodetic, cells, COL_SENSOR_Y_M, place_m[1]);
+            put_float_cell(geodetic, cells, COL_SENSOR_Z_M, place_m[2]);
+        }
     }
     return geodetic->kind == &rows_kind_polar
                ? turn_polar_cells(geodetic, check, frame, sensor_id, cells)
