@@ -155,7 +155,7 @@ $(BUILD)/program/scenes.c: $(scenes) Makefile
 # it).
 page_folder := tools/rhotrack/picture/interactive_map_page
 $(BUILD)/program/page_parts.c: $(wildcard $(page_folder)/*) Makefile
-	@mkdir -p $(@D) && { echo '#include "picture/interactive_map_page_parts.h"'; \
+	@mkdir -p $(@D) && { echo '#include "picture/map_page_parts.h"'; \
 	  for part in licence:d3.LICENSE d3:d3.min.js html:page.html style:page.css script:page.js; do \
 	    echo "const char page_$${part%%:*}[] ="; \
 	    sed -e 's/[\\"?]/\\&/g' -e 's/.*/"&\\n"/' $(page_folder)/$${part#*:}; echo ';'; \

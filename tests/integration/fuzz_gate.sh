@@ -164,7 +164,7 @@ else
         's/number < text->min \|\| number > text->max/0/'
     seeded fuzz_scene tools/rhotrack/scene/scene_read.c 'a scene whose text is not given back' \
         's/^    free\(text\);$//'
-    seeded fuzz_tables tools/rhotrack/io/csv/row_cells_read_and_check.c \
+    seeded fuzz_tables tools/rhotrack/io/csv/row_cells.c \
         'numbers beyond their limits' \
         's/number < min \|\| number > max/0/'
     seeded fuzz_tables tools/rhotrack/io/csv/table_columns_and_cells.c \

@@ -819,7 +819,7 @@ struct program_table *program_read_table(const char *path, const char *kind_name
 
     (void)rows_read_table_and_has_any(&file, path, table, parameters, keep_going);
     for (int i = 0; i < kind->num_columns; i++) {
-        names[i] = kind->columns[i].name;
+        names[i] = column_name(kind->columns[i].id);
     }
     *made = (struct program_table){
         .num_columns = kind->num_columns,

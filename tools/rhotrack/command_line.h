@@ -35,9 +35,6 @@ void command_line_read(struct command_line *line, const struct command *command,
  */
 void command_line_set_origin_and_places(struct command_line *line);
 
-/* Prints the help text of a command. */
-void command_line_print_help(const struct command *command, FILE *file);
-
 /* Exit 2 where --output names one of the inputs, for commands that must not overwrite an input. */
 void refuse_output_that_is_an_input(const struct command_line *line);
 

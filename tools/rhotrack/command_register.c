@@ -64,17 +64,6 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
     return skipped;
 }
 
-static void check_enough_radars(const struct register_data *data)
-{
-    if (register_num_radars(data) == 0) {
-        fail(EXIT_USAGE, "register: the input has no plots");
-    }
-    if (register_num_radars(data) == 1) {
-        fail(EXIT_USAGE,
-             "register: the input has only one radar; biases need targets that two or more see");
-    }
-}
-
 static void print_biases(const struct command_line *line, const struct register_result *result,
                          uint64_t rows_skipped)
 {
@@ -103,7 +92,13 @@ int command_register(struct command_line *line)
     pipeline_options_to_parameters(&line->parameters,
                                    &(struct pipeline_options){.gate = line->gate});
     rows_skipped = read_scans_counting_bad_rows(line, data);
-    check_enough_radars(data);
+    if (register_num_radars(data) == 0) {
+        fail(EXIT_USAGE, "register: the input has no plots");
+    }
+    if (register_num_radars(data) == 1) {
+        fail(EXIT_USAGE,
+             "register: the input has only one radar; biases need targets that two or more see");
+    }
     result = register_estimate_biases(data, &pipeline);
     if (result.targets == 0) {
         fail(EXIT_RUNTIME, "register: no target was tracked by two radars at the same time, within "

@@ -60,7 +60,7 @@ int command_convert(struct command_line *line);
  * Exit 2 where a recording of radar plots is to become tracks (GeoJSON, CAT062). Called before the
  * origin is looked for, which would not help.
  */
-void command_convert_refuse_radar_as_tracks(const struct command_line *line);
+void convert_refuse_radar(const struct command_line *line);
 
 int command_node(struct command_line *line);
 int command_publish(struct command_line *line);
@@ -72,11 +72,11 @@ int command_config(struct command_line *line);
 /*
  * The commands experiment and bench. bench is the separate program rhotrack-lab in the same folder,
  * and experiments are scripts of the source tree: the shipped program needs nothing of them.
- * command_lab_name returns NULL past the last name. command_lab_execute_without_return executes the
+ * command_lab_name returns NULL past the last name. command_lab_execute executes the
  * script or program with the same arguments and does not return; exit 1 where it is missing.
  */
 const char *command_lab_name(size_t index);
 bool command_lab_has(const char *name);
-_Noreturn void command_lab_execute_without_return(char **argv);
+_Noreturn void command_lab_execute(char **argv);
 
 #endif

@@ -108,8 +108,6 @@ static void assert_frames(struct given *given, const char *const *expected)
     assert_string_equal(next_frame_as_text(given), "end");
 }
 
-/* ---- scans and frames ------------------------------------------------------------------------ */
-
 static void scans_of_one_time_form_a_frame_sorted_by_sensor(void **state)
 {
     struct given given = open_reader_of_text(HEADER "0,7,0,0,1\n0,7,0,0,1.5\n0,3,90,0,2\n"
@@ -175,8 +173,6 @@ static void rows_within_scan_interval_form_one_scan(void **state)
     close_and_delete_files(&given);
 }
 
-/* ---- tolerance, missing sensors -------------------------------------------------------------- */
-
 static const char late_text[] = HEADER "0,1,0,0,1\n0.05,2,9,0,1\n1,1,0,0,1\n1.050001,2,9,0,1\n";
 
 /*
@@ -192,7 +188,7 @@ static void rows_of_numbered_scans_may_be_interleaved(void **state)
     const struct rho_frame *frame = bearing_frame_reader_next(given.reader);
     (void)state;
 
-    assert_int_equal(bearing_frame_reader_counts(given.reader).scans, 4);
+    assert_int_equal(bearing_reader_counts(given.reader).scans, 4);
     assert_int_equal(frame->scans[0].num_bearings, 2);
     assert_int_equal(frame->scans[0].bearings[1].offset_us, 500000);
     assert_string_equal(next_frame_as_text(&given), "1500: 2(1)");
@@ -208,7 +204,7 @@ static void scans_within_the_tolerance_form_one_frame(void **state)
     (void)state;
 
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "1000: 1(1)", "1050: 2(1)", "end"});
-    assert_int_equal(bearing_frame_reader_counts(given.reader).frames_incomplete, 2);
+    assert_int_equal(bearing_reader_counts(given.reader).frames_incomplete, 2);
     close_and_delete_files(&given);
 }
 
@@ -251,7 +247,7 @@ static void frames_that_lack_sensors_are_counted(void **state)
 {
     struct given given = open_reader_of_text(HEADER "0,1,0,0,1\n0,2,9,0,\n0,3,20,0,1\n"
                                                     "10,1,0,0,1\n10,3,20,0,1\n20,2,9,0,1\n");
-    struct bearing_frame_reader_counts counts = bearing_frame_reader_counts(given.reader);
+    struct bearing_reader_counts counts = bearing_reader_counts(given.reader);
     (void)state;
 
     assert_int_equal(counts.frames, 3);
@@ -263,8 +259,6 @@ static void frames_that_lack_sensors_are_counted(void **state)
                   (const char *[]){"0: 1(1) 2(0) 3(1)", "10000: 1(1) 3(1)", "20000: 2(1)", "end"});
     close_and_delete_files(&given);
 }
-
-/* ---- files ----------------------------------------------------------------------------------- */
 
 static void several_files_are_merged_by_time(void **state)
 {
@@ -287,7 +281,7 @@ static void sensors_are_listed_by_ascending_id(void **state)
 
     add_file_with(&given, HEADER "0,-2,9,0,1\n");
     open_reader(&given, false);
-    sensors = bearing_frame_reader_sensors(given.reader, &count);
+    sensors = bearing_reader_sensors(given.reader, &count);
     assert_int_equal(count, 2);
     assert_int_equal(sensors[0].sensor_id, -2);
     assert_int_equal(sensors[1].sensor_id, 5);
@@ -301,9 +295,9 @@ static void keep_last_skips_all_but_the_last_frames(void **state)
         open_reader_of_text(HEADER "0,1,0,0,1\n0,2,9,0,1\n10,1,0,0,1\n20,1,0,0,1\n30,2,9,0,1\n");
     (void)state;
 
-    bearing_frame_reader_keep_last(given.reader, 4);
+    bearing_reader_keep_last(given.reader, 4);
     assert_int_equal(bearing_frame_reader_frames_in_files(given.reader), 4);
-    bearing_frame_reader_keep_last(given.reader, 2);
+    bearing_reader_keep_last(given.reader, 2);
     assert_frames(&given, (const char *[]){"20000: 1(1)", "30000: 2(1)", "end"});
     close_and_delete_files(&given);
 }
@@ -321,7 +315,7 @@ static void bad_rows_are_skipped_and_counted(void **state)
     (void)state;
 
     open_reader(&given, true);
-    assert_int_equal(bearing_frame_reader_counts(given.reader).rows_skipped, 5);
+    assert_int_equal(bearing_reader_counts(given.reader).rows_skipped, 5);
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "10000: 1(1)", "end"});
     close_and_delete_files(&given);
 }
@@ -342,8 +336,6 @@ static void files_of_bearings_are_recognised_by_their_header(void **state)
     close_and_delete_files(&empty);
     close_and_delete_files(&both);
 }
-
-/* ---- compared with the library's live frames ------------------------------------------------- */
 
 #define LOOKS 300
 

@@ -120,8 +120,6 @@ static void assert_inputs(struct given *given, const char *const *expected)
     assert_string_equal(next_input_as_text(given), "end");
 }
 
-/* ---- the order of scans and frames ----------------------------------------------------------- */
-
 static const char *const plots_text = PLOTS "0,1,5,5\n0,1,6,6\n4,1,5,5\n8,1,5,5\n20,1,5,5\n";
 static const char *const bearings_text = BEARINGS "-1,8,0,0,1\n-1,9,9,0,1\n4,8,0,0,1\n4,9,9,0,1\n"
                                                   "4,9,9,0,2\n12,9,9,0,1\n";
@@ -203,8 +201,6 @@ static void scans_of_configured_sensors_come_with_their_description(void **state
     close_and_delete_files(&given);
 }
 
-/* ---- one kind alone -------------------------------------------------------------------------- */
-
 static void files_of_plots_alone_give_no_passive_sensors(void **state)
 {
     struct given given = open_inputs_of_texts(PLOTS "0,1,5,5\n", PLOTS "0,2,5,5\n");
@@ -265,8 +261,6 @@ static void a_single_passive_sensor_needs_a_radar_beside_it(void **state)
     assert_inputs(&given, (const char *[]){"0: f 8(1)", "5000: s1(1)", "10000: f 8(1)", "end"});
     close_and_delete_files(&given);
 }
-
-/* ---- counts, bad rows ------------------------------------------------------------------------ */
 
 static void counts_cover_scans_and_frames(void **state)
 {

@@ -374,8 +374,8 @@ static void test_cholesky_inverse_and_failure(void **state)
     assert_true(fabs(back[0] - 2) < 1e-12 && fabs(back[1] - 13) < 1e-12 &&
                 fabs(back[2] - 12) < 1e-12);
     /* inverse: cofactors over the determinant of 64 */
-    assert_true(fabs(cholesky_inverse_diagonal_element(matrix, 3, 0, work) - 29.0 / 64.0) < 1e-12);
-    assert_true(fabs(cholesky_inverse_diagonal_element(matrix, 3, 2, work) - 16.0 / 64.0) < 1e-12);
+    assert_true(fabs(cholesky_inverse_diagonal(matrix, 3, 0, work) - 29.0 / 64.0) < 1e-12);
+    assert_true(fabs(cholesky_inverse_diagonal(matrix, 3, 2, work) - 16.0 / 64.0) < 1e-12);
     assert_false(cholesky_factor(singular, 2));
 }
 

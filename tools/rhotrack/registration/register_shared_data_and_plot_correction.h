@@ -67,7 +67,7 @@ struct corrected register_correct_plot(const struct register_data *data,
 
 /*
  * Make the confirmed tracks of all radars, or of one: sort its scans by time, join sectors to turns
- * and step the tracker. In register_track_each_radar.c.
+ * and step the tracker. In register_tracks.c.
  */
 void register_track_all_radars(struct register_data *data, struct pipeline *pipeline);
 void register_track_one_radar(struct register_data *data, size_t radar_number,
@@ -75,7 +75,7 @@ void register_track_one_radar(struct register_data *data, size_t radar_number,
 
 /*
  * Index one past the last scan of the turn that begins with scan `first`. In
- * register_track_each_radar.c.
+ * register_tracks.c.
  */
 size_t register_find_scan_after_turn(const struct radar_data *radar, size_t first);
 
@@ -85,8 +85,7 @@ size_t register_find_scan_after_turn(const struct radar_data *radar, size_t firs
  * misfit: ratio of the plots' noise to their sigmas, with which tracks must also agree
  * statistically; 0: they need not. In register_match_tracks.c.
  */
-bool register_match_tracks_tell_if_changed(struct register_data *data, double gate_m,
-                                           double misfit);
+bool register_update_matches(struct register_data *data, double gate_m, double misfit);
 
 /* Number of targets of which several radars have tracks. */
 size_t register_num_common_targets(const struct register_data *data);

@@ -128,8 +128,8 @@ static double must_count_rho_cells_per_side(double range_m, double cell_m)
 }
 
 /* Exit 2 where the neighbourhood of +-eps spans more cells than RHO_HOUGH_REACH_MAX. */
-static void fail_if_eps_spans_too_many_cells(const struct parameters *parameters,
-                                             enum parameter_id eps, enum parameter_id cell)
+static void check_eps_cells(const struct parameters *parameters, enum parameter_id eps,
+                            enum parameter_id cell)
 {
     if (2.0 * parameters->value[eps] > RHO_HOUGH_REACH_MAX * parameters->value[cell]) {
         fail(EXIT_USAGE, "2 %s is more than %u cells of %s %.9g", parameters_name(eps),
@@ -144,8 +144,8 @@ struct rho_hough_config method_hough_config(enum method method, const struct par
     struct rho_hough_config config;
 
     parameters_check_together(parameters);
-    fail_if_eps_spans_too_many_cells(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
-    fail_if_eps_spans_too_many_cells(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
+    check_eps_cells(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
+    check_eps_cells(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
     rho_hough_config_default(&config, hough_method_of(method, parameters));
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.rho_max_m =
@@ -171,7 +171,7 @@ struct rho_hough_config method_hough_config(enum method method, const struct par
  * Suggests larger cells of rho where the customary ones do not hold range_max_m plus half the
  * largest distance between passive sensors.
  */
-static void suggest_wider_rho_cells_for_bearings(struct parameters *parameters, int rho_cells)
+static void suggest_wider_rho_cells(struct parameters *parameters, int rho_cells)
 {
     const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
     const double half_m = range_m + 0.5 * parameters->passive_apart_m;
@@ -223,7 +223,7 @@ struct rho_passive_config method_passive_config(const struct parameters *paramet
     struct rho_passive_config config;
     struct rho_settings settings;
 
-    suggest_wider_rho_cells_for_bearings(&fitted, RHO_PASSIVE_RHO_CELLS);
+    suggest_wider_rho_cells(&fitted, RHO_PASSIVE_RHO_CELLS);
     check_bearing_parameters(&fitted, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
     settings = parameters_to_settings(&fitted);
     rho_passive_config_default(&config);
@@ -241,7 +241,7 @@ struct rho_passive_paper_config method_passive_paper_config(const struct paramet
     const double *value = fitted.value;
     struct rho_passive_paper_config config;
 
-    suggest_wider_rho_cells_for_bearings(&fitted, RHO_PAPER_RHO_CELLS);
+    suggest_wider_rho_cells(&fitted, RHO_PAPER_RHO_CELLS);
     check_bearing_parameters(&fitted, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
     if (value[PARAMETER_VOTES_MIN] > 255) {
         fail(EXIT_USAGE, "votes_min %.9g is more than 255, the most that passive-paper counts",

@@ -351,16 +351,15 @@ struct local_frame *parameters_open_local_frame(const struct parameters *paramet
 extern const char parameters_no_origin[];
 
 /* Gets a sensor's latitude, longitude and altitude; false where its place was not given so. */
-bool parameters_geodetic_place_of_sensor(const struct parameters *parameters, int32_t sensor_id,
-                                         double geodetic[3]);
+bool parameters_sensor_geodetic(const struct parameters *parameters, int32_t sensor_id,
+                                double geodetic[3]);
 
 /*
  * Angle to add to a sensor's azimuths for azimuths in the local frame
- * (local_frame_meridian_convergence_rad); 0 for sensors that are not placed by latitude and
+ * (local_frame_convergence_rad); 0 for sensors that are not placed by latitude and
  * longitude.
  */
-double parameters_sensor_meridian_convergence_rad(const struct parameters *parameters,
-                                                  int32_t sensor_id);
+double parameters_convergence_rad(const struct parameters *parameters, int32_t sensor_id);
 
 bool parameters_has_value(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);

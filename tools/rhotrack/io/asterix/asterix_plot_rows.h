@@ -30,7 +30,7 @@ struct asterix_plot_rows *
 asterix_plot_rows_open(const char *path, const struct parameters *parameters, bool keep_going);
 
 /* Suppresses all reports on standard error at the end of the file. */
-void asterix_plot_rows_suppress_end_summary(struct asterix_plot_rows *records);
+void asterix_plot_rows_set_quiet(struct asterix_plot_rows *records);
 
 /* Error message for tracks (CAT062) given as input where plots are needed. */
 extern const char asterix_plot_rows_no_tracks[];
@@ -52,8 +52,6 @@ bool asterix_plot_rows_next(struct asterix_plot_rows *records, struct table *tab
 /* Number of bytes of the file that have been read. */
 uint64_t asterix_plot_rows_position(const struct asterix_plot_rows *records);
 void asterix_plot_rows_close(struct asterix_plot_rows *records);
-
-/* ---- Of what is heard live ---- */
 
 /*
  * Adds a scan's rows to a table: one without a plot that begins the scan, then one for each plot.

@@ -16,7 +16,7 @@
 #ifndef RHOTRACK_TOOL_ASTERIX_SCANS_H
 #define RHOTRACK_TOOL_ASTERIX_SCANS_H
 
-#include "io/asterix/asterix_antenna_looks_from_crossings.h"
+#include "io/asterix/asterix_antenna.h"
 #include "io/asterix/asterix_codec.h"
 
 struct asterix_scan_plot {

@@ -8,8 +8,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/number_and_time_parsing.h"
-#include "io/csv/table_dialect_and_column_names.h"
+#include "base/parse.h"
 
 void table_need_rows(const struct table *table)
 {
@@ -34,23 +33,6 @@ void table_free(struct table *table)
     free(table->lines);
     free(table->text);
     free(table);
-}
-
-/* ---- Columns and cells ---- */
-
-int table_need_column(const struct table *table, const char *name)
-{
-    int column = table_find_column(table, name);
-    char names[160], hint[200], found[240];
-
-    if (column >= 0) {
-        return column;
-    }
-    table_dialect_other_names(name, names, sizeof names);
-    table_dialect_list_columns_of_file(table, found, sizeof found);
-    table_dialect_hint_column(table, name, hint, sizeof hint);
-    table_fail_at_row(table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s; %s", name,
-                      *names ? " (or " : "", names, *names ? ")" : "", found, hint);
 }
 
 /* The cell's text; NULL in a table of numbers. */
@@ -189,8 +171,6 @@ const char *table_read_int32(const struct table *table, size_t row, int column, 
     return why;
 }
 
-/* ---- Tables of numbers ---- */
-
 struct table *table_make_empty_of_numbers(const char *path, const struct table_column *columns,
                                           size_t num_columns)
 {
@@ -245,8 +225,6 @@ void table_write_row(FILE *file, const struct table *table, size_t row)
     }
     fputc('\n', file);
 }
-
-/* ---- Errors ---- */
 
 void table_fail_at_row(const struct table *table, size_t row, const char *format, ...)
 {

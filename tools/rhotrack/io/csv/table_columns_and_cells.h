@@ -67,10 +67,7 @@ void table_free(struct table *table);
 /* Exit 2 where the table has a header and no rows. */
 void table_need_rows(const struct table *table);
 
-/*
- * Index of a column, or -1; table_need_column exits with 2 where it is missing, and lists the
- * columns of the file.
- */
+/* Index of a column, or -1. */
 static inline int table_find_column(const struct table *table, const char *name)
 {
     for (size_t i = 0; i < table->num_columns; i++) {
@@ -81,11 +78,9 @@ static inline int table_find_column(const struct table *table, const char *name)
     return -1;
 }
 
-int table_need_column(const struct table *table, const char *name);
-
 /*
  * Reading cells. The functions that return a text return NULL and set the value, or return the
- * reason why the cell is bad as a constant text (number_and_time_parsing.h). table_read_float gives
+ * reason why the cell is bad as a constant text (parse.h). table_read_float gives
  * the float32 nearest to the text, as the program that wrote it had it.
  */
 bool table_is_cell_empty(const struct table *table, size_t row, int column);

@@ -32,13 +32,13 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
 enum table_stream_found table_stream_next(struct table_stream *stream);
 
 /* Suppresses the report of left-out content at the end, for a stream that only previews a file. */
-void table_stream_suppress_asterix_end_summary(struct table_stream *stream);
+void table_stream_set_quiet(struct table_stream *stream);
 
 /* The stream's table: column names, once there is a header, and the newest row. */
 const struct table *table_stream_table(const struct table_stream *stream);
 
 /* Why a followed file cannot get more rows ("has become shorter"), or NULL. */
-const char *table_stream_why_file_cannot_be_followed(const struct table_stream *stream);
+const char *table_stream_why_not_followed(const struct table_stream *stream);
 
 /* Whether the bytes read end in the middle of a row. */
 bool table_stream_is_mid_row(const struct table_stream *stream);

@@ -6,21 +6,10 @@
 
 #include "base/common.h"
 #include "io/asterix/asterix_file.h"
-#include "io/asterix/asterix_tracks_to_table.h"
+#include "io/asterix/asterix_track_table.h"
 #include "io/log/lcm_log.h"
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
-
-static void collect_log_rows(struct lcm_log_reader *log, const char *path,
-                             struct rows_collection *collection, bool keep_going)
-{
-    struct lcm_log_event event;
-
-    while (lcm_log_next(log, &event)) {
-        rows_from_messages_add_event(collection, path, &event, keep_going);
-    }
-    rows_from_messages_sort_and_drop_repeats(collection);
-}
 
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
                              bool reports_damage)
@@ -30,7 +19,12 @@ struct table *log_table_read(const char *path, const struct rows_kind *kind, boo
     struct table *table = NULL;
 
     rows_from_messages_start(&collection, kind);
-    collect_log_rows(log, path, &collection, keep_going);
+    struct lcm_log_event event;
+
+    while (lcm_log_next(log, &event)) {
+        rows_from_messages_add_event(&collection, path, &event, keep_going);
+    }
+    rows_from_messages_sort(&collection);
     if (reports_damage) {
         lcm_log_report_skipped(log);
     }

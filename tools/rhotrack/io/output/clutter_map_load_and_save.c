@@ -12,7 +12,7 @@
 
 #include "base/common.h"
 #include "io/csv/geodetic_columns.h"
-#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/row_cells.h"
 #include "io/csv/table_columns_and_cells.h"
 #include "pipeline/pipeline.h"
 
@@ -31,15 +31,6 @@
 static const uint16_t hits_of_class[RHO_ECHO_HIT_CLASSES] = {1, 2, 3, RHO_ECHO_KNOWN_HITS};
 static const uint8_t unseen_of_class[RHO_ECHO_GAP_CLASSES] = {1, 2, 3, 5, 9};
 
-/* ---- reading ---- */
-
-struct columns {
-    int sensor_id, x_m, y_m, sigma_m, sigma_range_m, sigma_cross_m, hits;
-    int region, unseen, looks, returns;
-    /* NULL where x_m and y_m, not lat_deg and lon_deg, give the positions */
-    struct geodetic_columns *geodetic;
-};
-
 /* Statistics of returns for a class of echoes in a region. */
 struct return_counts {
     uint16_t hits;
@@ -53,74 +44,59 @@ struct clutter_row {
     struct return_counts counts;
 };
 
-/*
- * Refuses files of plots and tracks, which have positions and sensors too: the map would overwrite
- * them.
- */
-static void refuse_table_of_plots_or_tracks(const struct table *table)
+/* Checks the columns; returns NULL where x_m and y_m, not lat_deg and lon_deg, give positions. */
+static struct geodetic_columns *check_columns(const struct columns *columns,
+                                              const struct parameters *parameters)
 {
-    static const char *const others[] = {"t_s", "range_m", "bearing_rad"};
+    struct geodetic_columns *geodetic = NULL;
+
+    (void)columns_need(columns, COL_SENSOR_ID);
+    /*
+     * Refuses files of plots and tracks, which have positions and sensors too: the map would
+     * overwrite them.
+     */
+    static const enum column_id others[] = {COL_T_S, COL_RANGE_M, COL_BEARING_RAD};
 
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        if (table_find_column(table, others[i]) >= 0) {
-            table_fail_at_row(table, TABLE_HEADER, "column '%s' does not belong in a clutter map",
-                              others[i]);
+        if (columns->at[others[i]] >= 0) {
+            table_fail_at_row(columns->table, TABLE_HEADER,
+                              "column '%s' does not belong in a clutter map",
+                              column_name(others[i]));
         }
     }
+    if (columns->at[COL_LAT_DEG] >= 0) {
+        geodetic = geodetic_open(columns->table, parameters);
+    }
+    (void)columns_need(columns, geodetic ? COL_LAT_DEG : COL_X_M);
+    (void)columns_need(columns, geodetic ? COL_LON_DEG : COL_Y_M);
+    if (columns->at[COL_LOOKS] >= 0) {
+        (void)columns_need(columns, COL_HITS);
+        (void)columns_need(columns, COL_UNSEEN);
+        (void)columns_need(columns, COL_RETURNS);
+    }
+    return geodetic;
 }
 
-static struct columns find_columns(const struct table *table, const struct parameters *parameters)
+static bool read_count(const struct row_check *check, enum column_id column, int32_t min,
+                       int32_t max, int32_t *value)
 {
-    struct columns columns = {
-        .sensor_id = table_need_column(table, "sensor_id"),
-        .sigma_m = table_find_column(table, "sigma_m"),
-        .sigma_range_m = table_find_column(table, "sigma_range_m"),
-        .sigma_cross_m = table_find_column(table, "sigma_cross_m"),
-        .hits = table_find_column(table, "hits"),
-        .region = table_find_column(table, "region"),
-        .unseen = table_find_column(table, "unseen"),
-        .looks = table_find_column(table, "looks"),
-        .returns = table_find_column(table, "returns"),
-    };
-
-    refuse_table_of_plots_or_tracks(table);
-    if (table_find_column(table, "lat_deg") >= 0) {
-        columns.geodetic = geodetic_columns_open(table, parameters);
-    }
-    columns.x_m = table_need_column(table, columns.geodetic ? "lat_deg" : "x_m");
-    columns.y_m = table_need_column(table, columns.geodetic ? "lon_deg" : "y_m");
-    if (columns.looks >= 0) {
-        table_need_column(table, "hits");
-        table_need_column(table, "unseen");
-        table_need_column(table, "returns");
-    }
-    return columns;
+    return row_read_int32(check, column, value) &&
+           ((*value >= min && *value <= max) ||
+            row_refuse(check, "%s %" PRId32 " is outside %" PRId32 " .. %" PRId32,
+                       column_name(column), *value, min, max));
 }
 
-static bool read_count(const struct row_check *check, int column, int32_t min, int32_t max,
-                       int32_t *value)
-{
-    const char *why = table_read_int32(check->table, check->row, column, value);
-
-    if (why) {
-        return row_refuse_cell(check, column, why);
-    }
-    return (*value >= min && *value <= max) ||
-           row_refuse(check, "%s %" PRId32 " is outside %" PRId32 " .. %" PRId32,
-                      check->table->names[column], *value, min, max);
-}
-
-static bool read_place(const struct row_check *check, const struct columns *columns,
+static bool read_place(const struct row_check *check, struct geodetic_columns *geodetic,
                        struct clutter_echo *echo)
 {
     double place_m[3];
     bool has_alt;
 
-    if (!columns->geodetic) {
-        return row_read_position(check, columns->x_m, &echo->x_m) &&
-               row_read_position(check, columns->y_m, &echo->y_m);
+    if (!geodetic) {
+        return row_read_position(check, COL_X_M, &echo->x_m) &&
+               row_read_position(check, COL_Y_M, &echo->y_m);
     }
-    if (!geodetic_columns_read_place(columns->geodetic, check, place_m, &has_alt)) {
+    if (!geodetic_read_place(geodetic, check, place_m, &has_alt)) {
         return false;
     }
     echo->x_m = (float)place_m[0];
@@ -137,8 +113,7 @@ static bool is_sigma_configured(const struct parameters *parameters, int32_t sen
 }
 
 /* Sets an echo's sigmas to the noise of its sensor's plots at that range. */
-static void set_sigmas_to_sensor_noise_at_range(const struct parameters *parameters,
-                                                struct clutter_echo *echo)
+static void set_sigmas_of_sensor(const struct parameters *parameters, struct clutter_echo *echo)
 {
     double range_m = SIGMA_BY_HAND_M, cross_m = SIGMA_BY_HAND_M;
     const int32_t id = echo->sensor_id;
@@ -163,49 +138,47 @@ static void set_sigmas_to_sensor_noise_at_range(const struct parameters *paramet
     echo->sigma_cross_m = (float)fmax(cross_m, (double)RHO_LIMIT_SIGMA_MIN);
 }
 
-static bool read_sigma(const struct row_check *check, int column, float *value)
+static bool read_sigma(const struct row_check *check, enum column_id column, float *value)
 {
     return !row_has_cell(check, column) ||
            row_read_float(check, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX, value);
 }
 
-static bool read_echo(const struct row_check *check, const struct columns *columns,
+static bool read_echo(const struct row_check *check, struct geodetic_columns *geodetic,
                       const struct parameters *parameters, struct clutter_echo *echo)
 {
     int32_t hits = RHO_ECHO_KNOWN_HITS;
 
-    if (!read_count(check, columns->sensor_id, INT32_MIN, INT32_MAX, &echo->sensor_id) ||
-        !read_place(check, columns, echo)) {
+    if (!read_count(check, COL_SENSOR_ID, INT32_MIN, INT32_MAX, &echo->sensor_id) ||
+        !read_place(check, geodetic, echo)) {
         return false;
     }
-    set_sigmas_to_sensor_noise_at_range(parameters, echo);
-    if (!read_sigma(check, columns->sigma_m, &echo->sigma_range_m) ||
-        !read_sigma(check, columns->sigma_m, &echo->sigma_cross_m) ||
-        !read_sigma(check, columns->sigma_range_m, &echo->sigma_range_m) ||
-        !read_sigma(check, columns->sigma_cross_m, &echo->sigma_cross_m) ||
-        (row_has_cell(check, columns->hits) &&
-         !read_count(check, columns->hits, 1, UINT16_MAX, &hits))) {
+    set_sigmas_of_sensor(parameters, echo);
+    if (!read_sigma(check, COL_SIGMA_M, &echo->sigma_range_m) ||
+        !read_sigma(check, COL_SIGMA_M, &echo->sigma_cross_m) ||
+        !read_sigma(check, COL_SIGMA_RANGE_M, &echo->sigma_range_m) ||
+        !read_sigma(check, COL_SIGMA_CROSS_M, &echo->sigma_cross_m) ||
+        (row_has_cell(check, COL_HITS) && !read_count(check, COL_HITS, 1, UINT16_MAX, &hits))) {
         return false;
     }
     echo->hits = (uint16_t)hits;
     return true;
 }
 
-static bool read_looks_and_returns_of_echo_class(const struct row_check *check,
-                                                 const struct columns *columns,
-                                                 struct return_counts *counts)
+/* Reads the looks and returns of a class of echoes. */
+static bool read_return_counts(const struct row_check *check, struct return_counts *counts)
 {
     int32_t hits, unseen, region = ALL_REGIONS;
 
-    if (row_has_cell(check, columns->sensor_id)) {
+    if (row_has_cell(check, COL_SENSOR_ID)) {
         return row_refuse(check, "a row has either a sensor, as an echo, or looks, not both");
     }
-    if (!read_count(check, columns->hits, 1, UINT16_MAX, &hits) ||
-        !read_count(check, columns->unseen, 1, UINT8_MAX, &unseen) ||
-        (row_has_cell(check, columns->region) &&
-         !read_count(check, columns->region, 0, REGION_MAX, &region)) ||
-        !row_read_float(check, columns->looks, 0.0f, 1e9f, &counts->looks) ||
-        !row_read_float(check, columns->returns, 0.0f, counts->looks, &counts->returns)) {
+    if (!read_count(check, COL_HITS, 1, UINT16_MAX, &hits) ||
+        !read_count(check, COL_UNSEEN, 1, UINT8_MAX, &unseen) ||
+        (row_has_cell(check, COL_REGION) &&
+         !read_count(check, COL_REGION, 0, REGION_MAX, &region)) ||
+        !row_read_float(check, COL_LOOKS, 0.0f, 1e9f, &counts->looks) ||
+        !row_read_float(check, COL_RETURNS, 0.0f, counts->looks, &counts->returns)) {
         return false;
     }
     counts->hits = (uint16_t)hits;
@@ -219,22 +192,22 @@ static struct clutter_row *read_rows(const char *path, const struct parameters *
                                      size_t *count)
 {
     struct table *table = table_read(path, false);
-    struct columns columns = find_columns(table, parameters);
+    const struct columns columns = columns_find(table);
+    struct geodetic_columns *geodetic = check_columns(&columns, parameters);
     struct clutter_row *rows = must_calloc(table->num_rows + 1, sizeof *rows);
     char reason[ROW_REASON_BYTES];
 
     for (size_t row = 0; row < table->num_rows; row++) {
-        const struct row_check check = {.table = table, .row = row, .reason = reason};
+        const struct row_check check = {.columns = &columns, .row = row, .reason = reason};
 
-        rows[row].is_echo = !row_has_cell(&check, columns.looks);
-        if (!(rows[row].is_echo
-                  ? read_echo(&check, &columns, parameters, &rows[row].echo)
-                  : read_looks_and_returns_of_echo_class(&check, &columns, &rows[row].counts))) {
+        rows[row].is_echo = !row_has_cell(&check, COL_LOOKS);
+        if (!(rows[row].is_echo ? read_echo(&check, geodetic, parameters, &rows[row].echo)
+                                : read_return_counts(&check, &rows[row].counts))) {
             table_fail_at_row(table, row, "%s", reason);
         }
     }
     *count = table->num_rows;
-    geodetic_columns_close(columns.geodetic);
+    geodetic_close(geodetic);
     table_free(table);
     return rows;
 }
@@ -292,8 +265,6 @@ static void load_file_into_map(const char *path, const struct parameters *parame
     fputc('\n', stderr);
     free(rows);
 }
-
-/* ---- what is kept ---- */
 
 /* Standard deviation, within the limits that the map accepts. */
 static float clamped_sigma_m_from_variance(float variance_m2)
@@ -358,30 +329,6 @@ void clutter_map_file_copy_saved_content(struct rho_clutter_map *to,
     }
 }
 
-/* ---- writing ---- */
-
-static void write_echo(FILE *file, const struct clutter_echo *echo)
-{
-    char x[FLOAT_TEXT_BYTES], y[FLOAT_TEXT_BYTES], range[FLOAT_TEXT_BYTES], cross[FLOAT_TEXT_BYTES];
-
-    fprintf(file, "%" PRId32 ",%s,%s,%s,%s,%u,,,,\n", echo->sensor_id,
-            shortest_float_text(echo->x_m, x), shortest_float_text(echo->y_m, y),
-            shortest_float_text(echo->sigma_range_m, range),
-            shortest_float_text(echo->sigma_cross_m, cross), (unsigned)echo->hits);
-}
-
-static void write_return_counts(FILE *file, const struct return_counts *counts)
-{
-    char looks[FLOAT_TEXT_BYTES], returns[FLOAT_TEXT_BYTES], region[8] = "";
-
-    if (counts->region != ALL_REGIONS) {
-        snprintf(region, sizeof region, "%u", (unsigned)counts->region);
-    }
-    fprintf(file, ",,,,,%u,%s,%u,%s,%s\n", (unsigned)counts->hits, region, (unsigned)counts->unseen,
-            shortest_float_text(counts->looks, looks),
-            shortest_float_text(counts->returns, returns));
-}
-
 static bool write_map(FILE *file, const struct rho_clutter_map *map)
 {
     struct clutter_echo echo;
@@ -393,10 +340,23 @@ static bool write_map(FILE *file, const struct rho_clutter_map *map)
           "sensor_id,x_m,y_m,sigma_range_m,sigma_cross_m,hits,region,unseen,looks,returns\n",
           file);
     for (uint32_t place = 0; next_standing_echo(map, &place, &echo);) {
-        write_echo(file, &echo);
+        char x[FLOAT_TEXT_BYTES], y[FLOAT_TEXT_BYTES], range[FLOAT_TEXT_BYTES],
+            cross[FLOAT_TEXT_BYTES];
+
+        fprintf(file, "%" PRId32 ",%s,%s,%s,%s,%u,,,,\n", echo.sensor_id,
+                shortest_float_text(echo.x_m, x), shortest_float_text(echo.y_m, y),
+                shortest_float_text(echo.sigma_range_m, range),
+                shortest_float_text(echo.sigma_cross_m, cross), (unsigned)echo.hits);
     }
     for (unsigned at = 0; next_return_counts(map, &at, &counts);) {
-        write_return_counts(file, &counts);
+        char looks[FLOAT_TEXT_BYTES], returns[FLOAT_TEXT_BYTES], region[8] = "";
+
+        if (counts.region != ALL_REGIONS) {
+            snprintf(region, sizeof region, "%u", (unsigned)counts.region);
+        }
+        fprintf(file, ",,,,,%u,%s,%u,%s,%s\n", (unsigned)counts.hits, region,
+                (unsigned)counts.unseen, shortest_float_text(counts.looks, looks),
+                shortest_float_text(counts.returns, returns));
     }
     return !ferror(file);
 }
@@ -457,8 +417,6 @@ static bool replace_or_test_file(const char *path, const struct rho_clutter_map 
     free(real);
     return is_good;
 }
-
-/* ---- all of it ---- */
 
 void clutter_map_file_refuse_same_file(const char *path, const char *other, const char *what)
 {

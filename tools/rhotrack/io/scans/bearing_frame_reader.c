@@ -29,7 +29,7 @@ struct bearing_frame_reader {
     bool keep_going;
     int64_t tolerance_us;
     struct merged_scan_files files;
-    struct fixed_passive_sensors known;
+    struct passive_sensors known;
     /* the sensors of `known` in the order of sensor_id */
     struct frame_sensor sensors[RHO_MAX_SENSORS];
     struct scans_of_time before;
@@ -39,8 +39,8 @@ struct bearing_frame_reader {
     bool has_next;
     uint64_t skip; /* number of frames left out at the beginning */
     uint64_t duplicates_skipped;
-    struct bearing_frame_reader_counts counts; /* counts of this pass through the files */
-    struct bearing_frame_reader_counts total;
+    struct bearing_reader_counts counts; /* counts of this pass through the files */
+    struct bearing_reader_counts total;
 };
 
 bool bearing_frame_reader_file_has_bearings(const char *path)
@@ -59,12 +59,10 @@ bool bearing_frame_reader_file_has_bearings(const char *path)
         return false; /* a pipe could not be read again from its beginning */
     }
     table = table_read_header(path);
-    is_bearings = measurement_row_table_has_bearings(table);
+    is_bearings = measurement_row_is_bearings(table);
     table_free(table);
     return is_bearings;
 }
-
-/* ---- Scans in order ---- */
 
 /*
  * Handles a second scan of one sensor at one time: exit 2, or counts its rows as skipped and frees
@@ -118,8 +116,6 @@ static bool read_next_scan(struct bearing_frame_reader *reader, struct sensor_sc
     reader->counts.bearings += scan->bearings.num_bearings;
     return true;
 }
-
-/* ---- Scans to frames ---- */
 
 /*
  * Whether a scan that is not before the frame belongs to it: within the tolerance, of another
@@ -183,8 +179,6 @@ const struct rho_frame *bearing_frame_reader_next(struct bearing_frame_reader *r
     return NULL;
 }
 
-/* ---- All files ---- */
-
 static int compare_sensors(const void *a, const void *b)
 {
     const struct frame_sensor *first = a, *second = b;
@@ -203,11 +197,11 @@ static void sort_sensors(struct bearing_frame_reader *reader)
 static void rewind_files(struct bearing_frame_reader *reader)
 {
     for (int i = 0; i < reader->files.count; i++) {
-        scans_of_one_file_rewind(reader->files.list[i].source);
+        scan_source_rewind(reader->files.list[i].source);
     }
     reader->before.count = 0;
     reader->duplicates_skipped = 0;
-    reader->counts = (struct bearing_frame_reader_counts){.frames = 0};
+    reader->counts = (struct bearing_reader_counts){.frames = 0};
 }
 
 /*
@@ -221,8 +215,8 @@ static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64
 
     while (make_next_frame(reader)) {
         frames_of[reader->frame.num_scans]++;
-        progress_show_by_bytes(&progress, reader->counts.frames,
-                               bearing_frame_reader_position(reader), file_bytes);
+        progress_show_by_bytes(&progress, reader->counts.frames, bearing_reader_position(reader),
+                               file_bytes);
     }
     progress_end(&progress);
     reader->total = reader->counts;
@@ -244,10 +238,10 @@ struct bearing_frame_reader *bearing_frame_reader_open(char *const *paths, int n
 
     reader->keep_going = keep_going;
     reader->tolerance_us = llround(parameters->value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
-    reader->files = merged_scan_files_open(
-        paths, num_paths, parameters,
-        (struct scans_of_one_file_options){
-            .kind = RECORD_BEARINGS, .keep_going = keep_going, .known = &reader->known});
+    reader->files = merged_scan_files_open(paths, num_paths, parameters,
+                                           (struct scan_source_options){.kind = RECORD_BEARINGS,
+                                                                        .keep_going = keep_going,
+                                                                        .known = &reader->known});
     for (int i = 0; i < num_paths; i++) {
         bytes += regular_file_size_or_zero(paths[i]);
     }
@@ -256,7 +250,7 @@ struct bearing_frame_reader *bearing_frame_reader_open(char *const *paths, int n
     return reader;
 }
 
-void bearing_frame_reader_need_two_sensors(const struct bearing_frame_reader *reader)
+void bearing_reader_need_two(const struct bearing_frame_reader *reader)
 {
     if (reader->known.count < 2) {
         const struct known_sensor *only = &reader->known.list[0];
@@ -267,9 +261,7 @@ void bearing_frame_reader_need_two_sensors(const struct bearing_frame_reader *re
     }
 }
 
-/* ---- What was read ---- */
-
-void bearing_frame_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames)
+void bearing_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames)
 {
     print_if_only_last_taken(frames, reader->total.frames, "frames");
     reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
@@ -280,25 +272,24 @@ uint64_t bearing_frame_reader_frames_in_files(const struct bearing_frame_reader 
     return reader->total.frames;
 }
 
-uint64_t bearing_frame_reader_position(const struct bearing_frame_reader *reader)
+uint64_t bearing_reader_position(const struct bearing_frame_reader *reader)
 {
     return merged_scan_files_bytes_read(&reader->files);
 }
 
-const struct frame_sensor *bearing_frame_reader_sensors(const struct bearing_frame_reader *reader,
-                                                        size_t *count)
+const struct frame_sensor *bearing_reader_sensors(const struct bearing_frame_reader *reader,
+                                                  size_t *count)
 {
     *count = reader->known.count;
     return reader->sensors;
 }
 
-struct bearing_frame_reader_counts
-bearing_frame_reader_counts(const struct bearing_frame_reader *reader)
+struct bearing_reader_counts bearing_reader_counts(const struct bearing_frame_reader *reader)
 {
     return reader->total;
 }
 
-void bearing_frame_reader_report_incomplete(const struct bearing_frame_reader *reader)
+void bearing_reader_report(const struct bearing_frame_reader *reader)
 {
     print_rows_skipped(reader->total.rows_skipped);
     if (reader->total.frames_incomplete) {

@@ -15,13 +15,13 @@
 
 #include <stdbool.h>
 
-#include "io/scans/check_passive_sensors_fixed.h"
+#include "io/scans/passive_sensors.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
 struct bearing_frame_reader;
 
-struct bearing_frame_reader_counts {
+struct bearing_reader_counts {
     uint64_t frames, scans, bearings;
     uint64_t frames_incomplete; /* frames without a scan of every sensor of the files */
     uint64_t rows_skipped;      /* bad rows skipped with keep_going */
@@ -45,7 +45,7 @@ struct bearing_frame_reader *bearing_frame_reader_open(char *const *paths, int n
                                                        bool keep_going);
 
 /* Exit 2 where the files have fewer than two sensors, which give no positions. */
-void bearing_frame_reader_need_two_sensors(const struct bearing_frame_reader *reader);
+void bearing_reader_need_two(const struct bearing_frame_reader *reader);
 
 /*
  * Reads the next frame, valid until the next call, or returns NULL after the last. Frames come in
@@ -57,24 +57,23 @@ const struct rho_frame *bearing_frame_reader_next(struct bearing_frame_reader *r
  * Restricts reading to the last `frames` frames, and reports on standard error if frames are left
  * out.
  */
-void bearing_frame_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames);
+void bearing_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames);
 
 /* Number of frames in the files. */
 uint64_t bearing_frame_reader_frames_in_files(const struct bearing_frame_reader *reader);
 
 /* Bytes read of all files, for progress bars. */
-uint64_t bearing_frame_reader_position(const struct bearing_frame_reader *reader);
+uint64_t bearing_reader_position(const struct bearing_frame_reader *reader);
 
 /* The sensors of the files, *count of them in the order of sensor_id, valid until the close. */
-const struct frame_sensor *bearing_frame_reader_sensors(const struct bearing_frame_reader *reader,
-                                                        size_t *count);
+const struct frame_sensor *bearing_reader_sensors(const struct bearing_frame_reader *reader,
+                                                  size_t *count);
 
 /* Counts over all frames of the files, read or not. */
-struct bearing_frame_reader_counts
-bearing_frame_reader_counts(const struct bearing_frame_reader *reader);
+struct bearing_reader_counts bearing_reader_counts(const struct bearing_frame_reader *reader);
 
 /* Reports skipped bad rows and incomplete frames, if any, on standard error. */
-void bearing_frame_reader_report_incomplete(const struct bearing_frame_reader *reader);
+void bearing_reader_report(const struct bearing_frame_reader *reader);
 void bearing_frame_reader_close(struct bearing_frame_reader *reader);
 
 #endif

@@ -68,7 +68,7 @@ static void read_ahead_next_frame(struct merged_inputs *inputs)
  * Sum of the files' sizes; a log of both kinds is read by two readers, and counts twice. 0: not
  * known.
  */
-static uint64_t sum_bytes_over_plot_and_bearing_readers(char *const *paths, int num_paths)
+static uint64_t sum_reader_bytes(char *const *paths, int num_paths)
 {
     uint64_t sum = 0;
 
@@ -99,11 +99,11 @@ struct merged_inputs *merged_inputs_open_plots_and_bearings(char *const *paths, 
         inputs->bearing_frame_reader =
             bearing_frame_reader_open(sorted, count, parameters, keep_going);
         if (!inputs->scan_reader) {
-            bearing_frame_reader_need_two_sensors(inputs->bearing_frame_reader);
+            bearing_reader_need_two(inputs->bearing_frame_reader);
         }
     }
     free(sorted);
-    inputs->bytes = sum_bytes_over_plot_and_bearing_readers(paths, num_paths);
+    inputs->bytes = sum_reader_bytes(paths, num_paths);
     read_ahead_next_plot_scan(inputs);
     read_ahead_next_frame(inputs);
     return inputs;
@@ -114,7 +114,7 @@ struct merged_inputs *merged_inputs_follow_plots(char *path, const struct parame
 {
     struct merged_inputs *inputs = must_calloc(1, sizeof *inputs);
 
-    inputs->scan_reader = plot_scan_reader_follow(path, parameters, keep_going);
+    inputs->scan_reader = plot_reader_follow(path, parameters, keep_going);
     return inputs;
 }
 
@@ -154,16 +154,15 @@ const struct frame_sensor *merged_inputs_passive_sensors(const struct merged_inp
 {
     *count = 0;
     return inputs->bearing_frame_reader
-               ? bearing_frame_reader_sensors(inputs->bearing_frame_reader, count)
+               ? bearing_reader_sensors(inputs->bearing_frame_reader, count)
                : NULL;
 }
 
 uint64_t merged_inputs_bytes_read(const struct merged_inputs *inputs)
 {
     return (inputs->scan_reader ? plot_scan_reader_position(inputs->scan_reader) : 0) +
-           (inputs->bearing_frame_reader
-                ? bearing_frame_reader_position(inputs->bearing_frame_reader)
-                : 0);
+           (inputs->bearing_frame_reader ? bearing_reader_position(inputs->bearing_frame_reader)
+                                         : 0);
 }
 
 uint64_t merged_inputs_total_bytes(const struct merged_inputs *inputs)
@@ -184,8 +183,7 @@ merged_inputs_step_and_plot_counts(const struct merged_inputs *inputs)
         counts.rows_skipped = scans.rows_skipped;
     }
     if (inputs->bearing_frame_reader) {
-        struct bearing_frame_reader_counts frames =
-            bearing_frame_reader_counts(inputs->bearing_frame_reader);
+        struct bearing_reader_counts frames = bearing_reader_counts(inputs->bearing_frame_reader);
 
         counts.frames = frames.frames;
         counts.frames_incomplete = frames.frames_incomplete;

@@ -14,10 +14,10 @@ void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
                            !assembler->is_restart;
 }
 
-enum rho_status out_of_sequence_counts_take_message(struct out_of_sequence_counts *order,
-                                                    struct rho_scan_assembler *assembler,
-                                                    const char *channel, const uint8_t *data,
-                                                    size_t size, int64_t now_us)
+enum rho_status out_of_sequence_counts_take(struct out_of_sequence_counts *order,
+                                            struct rho_scan_assembler *assembler,
+                                            const char *channel, const uint8_t *data, size_t size,
+                                            int64_t now_us)
 {
     const struct rho_scan_assembler_counters before = assembler->counters;
     enum rho_status status = rho_scan_assembler_take(assembler, channel, data, size, now_us);

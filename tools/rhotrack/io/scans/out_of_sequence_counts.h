@@ -27,10 +27,10 @@ struct scan_losses {
 };
 
 /* Passes a message to rho_scan_assembler_take, and counts whether a late scan was accepted. */
-enum rho_status out_of_sequence_counts_take_message(struct out_of_sequence_counts *order,
-                                                    struct rho_scan_assembler *assembler,
-                                                    const char *channel, const uint8_t *data,
-                                                    size_t size, int64_t now_us);
+enum rho_status out_of_sequence_counts_take(struct out_of_sequence_counts *order,
+                                            struct rho_scan_assembler *assembler,
+                                            const char *channel, const uint8_t *data, size_t size,
+                                            int64_t now_us);
 
 /*
  * Counts whether a message that the assembler has taken was a late scan that was accepted; before:

@@ -14,7 +14,7 @@ struct plot_scan_reader {
 
 static struct plot_scan_reader *open_reader(char *const *paths, int num_paths,
                                             const struct parameters *parameters,
-                                            struct scans_of_one_file_options options)
+                                            struct scan_source_options options)
 {
     struct plot_scan_reader *reader = must_calloc(1, sizeof *reader);
 
@@ -27,23 +27,21 @@ struct plot_scan_reader *plot_scan_reader_open(char *const *paths, int num_paths
                                                const struct parameters *parameters, bool keep_going)
 {
     return open_reader(paths, num_paths, parameters,
-                       (struct scans_of_one_file_options){.keep_going = keep_going});
+                       (struct scan_source_options){.keep_going = keep_going});
 }
 
-struct plot_scan_reader *plot_scan_reader_follow(char *path, const struct parameters *parameters,
-                                                 bool keep_going)
+struct plot_scan_reader *plot_reader_follow(char *path, const struct parameters *parameters,
+                                            bool keep_going)
 {
-    return open_reader(
-        &path, 1, parameters,
-        (struct scans_of_one_file_options){.keep_going = keep_going, .follow = true});
+    return open_reader(&path, 1, parameters,
+                       (struct scan_source_options){.keep_going = keep_going, .follow = true});
 }
 
-struct plot_scan_reader *
-plot_scan_reader_open_sensor_id_optional(char *const *paths, int num_paths,
-                                         const struct parameters *parameters)
+struct plot_scan_reader *plot_reader_open_sensorless(char *const *paths, int num_paths,
+                                                     const struct parameters *parameters)
 {
     return open_reader(paths, num_paths, parameters,
-                       (struct scans_of_one_file_options){.may_lack_sensor = true});
+                       (struct scan_source_options){.may_lack_sensor = true});
 }
 
 const struct rho_scan *plot_scan_reader_next(struct plot_scan_reader *reader)
@@ -58,34 +56,34 @@ const struct rho_scan *plot_scan_reader_next(struct plot_scan_reader *reader)
 }
 
 /* The source of a followed file, which is the only file. */
-static struct scans_of_one_file *followed_source(const struct plot_scan_reader *reader)
+static struct scan_source *followed_source(const struct plot_scan_reader *reader)
 {
     return reader->files.list[0].source;
 }
 
-bool plot_scan_reader_waits_for_rows(const struct plot_scan_reader *reader)
+bool plot_reader_waits(const struct plot_scan_reader *reader)
 {
-    return scans_of_one_file_waits_for_rows(followed_source(reader));
+    return scan_source_waits(followed_source(reader));
 }
 
-bool plot_scan_reader_is_mid_row(const struct plot_scan_reader *reader)
+bool plot_reader_is_mid_row(const struct plot_scan_reader *reader)
 {
-    return scans_of_one_file_is_mid_row(followed_source(reader));
+    return scan_source_is_mid_row(followed_source(reader));
 }
 
-void plot_scan_reader_complete_scans_so_far(struct plot_scan_reader *reader)
+void plot_reader_complete_scans(struct plot_scan_reader *reader)
 {
-    scans_of_one_file_complete_scans_so_far(followed_source(reader));
+    scan_source_complete_scans(followed_source(reader));
 }
 
-void plot_scan_reader_end_reading(struct plot_scan_reader *reader)
+void plot_reader_end_reading(struct plot_scan_reader *reader)
 {
-    scans_of_one_file_end_reading(followed_source(reader));
+    scan_source_end_reading(followed_source(reader));
 }
 
-const char *plot_scan_reader_why_cannot_be_followed(const struct plot_scan_reader *reader)
+const char *plot_reader_why_not_followed(const struct plot_scan_reader *reader)
 {
-    return scans_of_one_file_why_cannot_be_followed(followed_source(reader));
+    return scan_source_why_not_followed(followed_source(reader));
 }
 
 const struct rho_sensor *plot_scan_reader_sensor(const struct plot_scan_reader *reader)
@@ -106,7 +104,7 @@ struct plot_scan_reader_counts plot_scan_reader_counts(const struct plot_scan_re
                                                 merged_scan_files_rows_skipped(&reader->files)};
 }
 
-void plot_scan_reader_report_skipped(const struct plot_scan_reader *reader)
+void plot_reader_report_skipped(const struct plot_scan_reader *reader)
 {
     print_rows_skipped(plot_scan_reader_counts(reader).rows_skipped);
 }

@@ -5,8 +5,8 @@
  * t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps], or polar:
  * t_s,sensor_id,range_m,azimuth_rad[,elevation_rad][,range_rate_mps]
  * [,sensor_x_m,sensor_y_m,sensor_z_m][,sigma_range_m,...];
- * azimuth_deg (clockwise from north) and elevation_deg may stand for the radians, latitudes and
- * longitudes for metres (geodetic_columns.h). Other columns are ignored. Rows of one sensor with
+ * degrees (columns.h) may stand for the angles in radians, latitudes and longitudes for metres
+ * (geodetic_columns.h). Other columns are ignored. Rows of one sensor with
  * the same t_s (or within scan_interval_s) form one scan; with a column scan, rows of the same scan
  * and epoch, up to a minute apart (rows_to_scans.h). A row whose measurement columns are empty is a
  * scan without detections.
@@ -37,35 +37,34 @@ struct plot_scan_reader *plot_scan_reader_open(char *const *paths, int num_paths
                                                bool keep_going);
 
 /* Opens one CSV file that may grow, or a pipe, which is never waited for. */
-struct plot_scan_reader *plot_scan_reader_follow(char *path, const struct parameters *parameters,
-                                                 bool keep_going);
+struct plot_scan_reader *plot_reader_follow(char *path, const struct parameters *parameters,
+                                            bool keep_going);
 
 /*
  * Opens files that may lack a column sensor_id: all plots are then of sensor 0. For pictures,
  * without tracking.
  */
-struct plot_scan_reader *
-plot_scan_reader_open_sensor_id_optional(char *const *paths, int num_paths,
-                                         const struct parameters *parameters);
+struct plot_scan_reader *plot_reader_open_sensorless(char *const *paths, int num_paths,
+                                                     const struct parameters *parameters);
 
 /*
  * Reads the next scan, valid until the next call, or returns NULL after the last. Scans come in the
- * order of time. For a followed file, NULL is not the end while plot_scan_reader_waits_for_rows.
+ * order of time. For a followed file, NULL is not the end while plot_reader_waits.
  */
 const struct rho_scan *plot_scan_reader_next(struct plot_scan_reader *reader);
 
 /* Whether a followed file has no further complete scan, but may still get rows. */
-bool plot_scan_reader_waits_for_rows(const struct plot_scan_reader *reader);
+bool plot_reader_waits(const struct plot_scan_reader *reader);
 
 /* Whether the bytes read of a followed file end in the middle of a row. */
-bool plot_scan_reader_is_mid_row(const struct plot_scan_reader *reader);
+bool plot_reader_is_mid_row(const struct plot_scan_reader *reader);
 
 /* For a followed file: takes all rows so far as complete scans; stops reading rows. */
-void plot_scan_reader_complete_scans_so_far(struct plot_scan_reader *reader);
-void plot_scan_reader_end_reading(struct plot_scan_reader *reader);
+void plot_reader_complete_scans(struct plot_scan_reader *reader);
+void plot_reader_end_reading(struct plot_scan_reader *reader);
 
 /* Why a followed file cannot get more rows ("has become shorter"), or NULL. */
-const char *plot_scan_reader_why_cannot_be_followed(const struct plot_scan_reader *reader);
+const char *plot_reader_why_not_followed(const struct plot_scan_reader *reader);
 
 /*
  * Sensor of the scan handed out last; NULL where no description was given. Valid as long as the
@@ -80,7 +79,7 @@ uint64_t plot_scan_reader_position(const struct plot_scan_reader *reader);
 struct plot_scan_reader_counts plot_scan_reader_counts(const struct plot_scan_reader *reader);
 
 /* Reports skipped bad rows on standard error, if any. */
-void plot_scan_reader_report_skipped(const struct plot_scan_reader *reader);
+void plot_reader_report_skipped(const struct plot_scan_reader *reader);
 void plot_scan_reader_close(struct plot_scan_reader *reader);
 
 #endif

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/log/files_to_message_stream.h"
+#include "io/log/message_source.h"
 
 /* Counts of scans and of lone ones, with a single plot. Initialised with zeros. */
 struct scan_interval_hint {
