@@ -38,11 +38,6 @@ extern "C" {
 #define RHO_ZY RHO_AT(RHO_Z, RHO_Y)
 #define RHO_ZZ RHO_AT(RHO_Z, RHO_Z)
 
-/* least variance of an element of an open axis; updates keep it there */
-#define RHO_KALMAN_VARIANCE_MIN 1.0e-9f
-/* largest variance; larger results are refused, RHO_ERROR_VALUE */
-#define RHO_KALMAN_VARIANCE_MAX 1.0e12f
-
 struct rho_kalman {
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];

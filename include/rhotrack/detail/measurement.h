@@ -32,6 +32,9 @@ extern "C" {
 #define RHO_GATE_CHI2_3D 16.2662f
 #define RHO_GATE_CHI2_4D 18.4668f
 
+/* Least range at which a line of sight is defined. */
+#define RHO_RANGE_LEAST_M 1.0f
+
 /*
  * Interval of heights over which clutter and new targets are assumed to be spread, where heights
  * are measured.
