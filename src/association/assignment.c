@@ -40,7 +40,6 @@ static int pair_index_or_num_pairs(const struct rho_assignment *a, int row, int 
 {
     const int num_pairs = a->num_pairs[row];
     int i;
-
     for (i = 0; i < num_pairs; ++i) {
         if (a->pairs[row][i].column == column) {
             break;
@@ -53,7 +52,6 @@ static int pair_index_or_num_pairs(const struct rho_assignment *a, int row, int 
 static int costliest_pair_of_full_row(const struct rho_assignment_pair *pairs)
 {
     int i, costliest = 0;
-
     for (i = 1; i < RHO_MAX_GATE_PLOTS; ++i) {
         if (is_costlier(&pairs[i], &pairs[costliest])) {
             costliest = i;
@@ -68,7 +66,6 @@ static void keep_cheapest_count_dropped(struct rho_assignment *a, int row,
 {
     struct rho_assignment_pair *costliest =
         &a->pairs[row][costliest_pair_of_full_row(a->pairs[row])];
-
     if (is_costlier(costliest, &pair)) {
         *costliest = pair;
     }
@@ -97,7 +94,6 @@ static void label_columns_of_row_and_offer_path_end(struct rho_assignment *a, st
 {
     const int num_pairs = a->num_pairs[row];
     int i;
-
     if (-price_less_distance < s->end_distance) {
         s->end_distance = -price_less_distance;
         s->end_row = (int16_t)row;
@@ -106,7 +102,6 @@ static void label_columns_of_row_and_offer_path_end(struct rho_assignment *a, st
         const int column = a->pairs[row][i].column;
         const int32_t distance =
             a->pairs[row][i].cost - a->column_price[column] - price_less_distance;
-
         /* Columns at least as far as the end never become part of the path. */
         if (distance < a->column_distance[column] && distance < s->end_distance) {
             label_and_queue_column(a, s, column, row, distance);
@@ -125,10 +120,8 @@ static int try_move_nearest_unscanned_to_queue_head(struct rho_assignment *a,
     int32_t least = s->end_distance;
     int i, nearest = -1;
     int16_t column;
-
     for (i = s->num_scanned; i < s->num_labelled; ++i) {
         const int32_t distance = a->column_distance[queue[i]];
-
         if (distance < least || (nearest >= 0 && distance == least && queue[i] < queue[nearest])) {
             least = distance;
             nearest = i;
@@ -155,7 +148,6 @@ static void find_shortest_path_end(struct rho_assignment *a, struct search *s, i
         const int16_t column = a->column_queue[s->num_scanned];
         const int16_t owner = a->column_row[column];
         int32_t price;
-
         if (owner == RHO_ASSIGNMENT_NONE) {
             s->end_column = column;
             s->end_distance = a->column_distance[column];
@@ -175,10 +167,8 @@ static void find_shortest_path_end(struct rho_assignment *a, struct search *s, i
 static void update_prices_and_clear_labels(struct rho_assignment *a, const struct search *s)
 {
     int i;
-
     for (i = 0; i < s->num_labelled; ++i) {
         const int16_t column = a->column_queue[i];
-
         if (i < s->num_scanned) {
             a->column_price[column] += a->column_distance[column] - s->end_distance;
         }
@@ -194,7 +184,6 @@ static void augment_along_path(struct rho_assignment *a, const struct search *s,
 {
     int16_t column = s->end_column;
     int16_t row = s->end_row;
-
     if (column == RHO_ASSIGNMENT_NONE) {
         column = a->row_column[row];
         a->row_column[row] = RHO_ASSIGNMENT_NONE;
@@ -215,7 +204,6 @@ static void augment_along_path(struct rho_assignment *a, const struct search *s,
 static void clear_answer_and_prices(struct rho_assignment *a)
 {
     int i;
-
     for (i = 0; i < a->num_rows; ++i) {
         a->row_column[i] = RHO_ASSIGNMENT_NONE;
     }
@@ -264,7 +252,6 @@ enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, uns
 {
     const struct rho_assignment_pair pair = {.cost = cost, .column = (int16_t)column};
     uint16_t *num_pairs;
-
     if (assignment == NULL) {
         return RHO_ERROR_NULL;
     }
@@ -293,14 +280,12 @@ enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, uns
 void rho_assignment_solve(struct rho_assignment *assignment)
 {
     int row;
-
     if (!rho_assignment_is_ready(assignment)) {
         return;
     }
     clear_answer_and_prices(assignment);
     for (row = 0; row < assignment->num_rows; ++row) {
         struct search s = {.end_distance = DISTANCE_NONE, .end_column = RHO_ASSIGNMENT_NONE};
-
         find_shortest_path_end(assignment, &s, row);
         update_prices_and_clear_labels(assignment, &s);
         augment_along_path(assignment, &s, row);

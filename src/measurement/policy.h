@@ -15,15 +15,14 @@
 
 /*
  * Blind zones farther from the expected range rate than this many sigmas are ignored,
- * doppler_notch.c: together they hold 6e-5 of a normal distribution. Half: 5 % of the blind
- * probability is lost. Twice: the same probabilities at twice the cost, and with densely spaced
+ * doppler_notch.c: together they hold 6e-5 of a normal distribution. Half: up to 5 % are lost. Twice: the same probabilities at twice the cost, and with densely spaced
  * zones the uniform case comes sooner.
  */
 #define ZONE_SIGMAS 4.0f
 /*
  * With more blind zones within that span all range rates count as equally likely, which bounds the
- * cost. Half: the approximation where a third of a sigma is a whole zone apart. Twice: twice the
- * worst cost for probabilities that agree already.
+ * cost. Half: the approximation already where zones are 1.8 sigmas apart. Twice: twice the worst
+ * cost for probabilities that agree already.
  */
 #define ZONES_MAX 9
 /*

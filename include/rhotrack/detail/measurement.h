@@ -100,6 +100,15 @@ int rho_measurement_has_valid_place_and_biases(const struct rho_sensor *sensor);
  */
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6]);
 
+/* Noise variance of the range along the ground. Constant cost. No stack. */
+static inline float rho_measurement_ground_variance(const struct rho_measurement *measurement)
+{
+    const float ce = measurement->cos_elevation, se = measurement->sin_elevation;
+    return measurement->has_z
+               ? ce * ce * measurement->variance_m2[0] + se * se * measurement->variance_m2[2]
+               : measurement->variance_m2[0];
+}
+
 /*
  * The range rate that a sensor (NULL: at the origin) would see of a state [x y z vx vy vz], and its
  * derivative by the state: u = (p - s) / |p - s|, rate = u . v, d rate / d v = u, d rate / d p = (v
