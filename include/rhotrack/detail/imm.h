@@ -50,6 +50,8 @@ extern "C" {
 
 /* A plot is in the gate if its NIS under either model is at most this. */
 #define RHO_IMM_GATE 30.0f
+/* its square root: the largest distance of a plot in the gate, in standard deviations */
+#define RHO_IMM_GATE_SIGMAS 5.4772256f
 
 /* Default mean time between manoeuvres of calm targets, such as airliners and ships. */
 #define RHO_IMM_CALM_S 300.0f
