@@ -148,11 +148,14 @@ static inline float reduced_variance(float variance, float gain, float covarianc
 static inline void reduce_covariance(float p[21], const float row[6], const float gain[6])
 {
     RHO_UNROLL
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 1; i < 6; ++i) {
         RHO_UNROLL
         for (int j = 0; j < i; ++j) {
             p[RHO_AT(i, j)] -= gain[i] * row[j];
         }
+    }
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
         p[RHO_AT(i, i)] = reduced_variance(p[RHO_AT(i, i)], gain[i], row[i]);
     }
 }

@@ -74,6 +74,25 @@ static void acceleration_response(float t_s, float memory_s, float out[3])
     out[2] = 1.0f - x * (1.0f - x * rest);
 }
 
+static void set_response(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
+{
+    float response[3];
+    acceleration_response(dt_s, model->memory_s, response);
+    step->position_by_accel = response[0];
+    step->velocity_by_accel = response[1];
+    step->accel_by_accel = response[2];
+    memset(step->noise, 0, sizeof step->noise);
+    for (int k = 0; dt_s > 0.0f && k < 4; k++) {
+        const float weight = gauss_weight[k] * dt_s * model->drive_density;
+        acceleration_response(gauss_node[k] * dt_s, model->memory_s, response);
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j <= i; j++) {
+                step->noise[RHO_AT(i, j)] += weight * response[i] * response[j];
+            }
+        }
+    }
+}
+
 /* Predicts one axis' covariance of the manoeuvring model without process noise: F P F^T. */
 static inline void propagate_axis_covariance(struct axis *at, struct accel *by,
                                              const struct rho_imm_step *step)
@@ -89,6 +108,26 @@ static inline void propagate_axis_covariance(struct axis *at, struct accel *by,
     by->ap = h * pa;
     by->av = h * va;
     by->aa = h * h * by->aa;
+}
+
+/* Doubles the interval of the manoeuvring model's transition, with its noise: two steps in a row. */
+static void double_step(struct rho_imm_step *step)
+{
+    float *noise = step->noise;
+    struct axis at = {.pp = noise[0], .vp = noise[1], .vv = noise[2]};
+    struct accel by = {.ap = noise[3], .av = noise[4], .aa = noise[5]};
+    propagate_axis_covariance(&at, &by, step);
+    noise[0] += at.pp;
+    noise[1] += at.vp;
+    noise[2] += at.vv;
+    noise[3] += by.ap;
+    noise[4] += by.av;
+    noise[5] += by.aa;
+    step->position_by_accel +=
+        step->dt_s * step->velocity_by_accel + step->position_by_accel * step->accel_by_accel;
+    step->velocity_by_accel += step->velocity_by_accel * step->accel_by_accel;
+    step->accel_by_accel *= step->accel_by_accel;
+    step->dt_s *= 2.0f;
 }
 
 /* Probability that an exponentially distributed time with mean mean_s has passed. */
@@ -129,36 +168,9 @@ void rho_imm_prepare_step(struct rho_imm_step *step, const struct rho_imm_model 
         step->dt_s *= 0.5f;
         doublings++;
     }
-    float response[3], *noise = step->noise;
-    acceleration_response(step->dt_s, model->memory_s, response);
-    step->position_by_accel = response[0];
-    step->velocity_by_accel = response[1];
-    step->accel_by_accel = response[2];
-    memset(step->noise, 0, sizeof step->noise);
-    for (int k = 0; step->dt_s > 0.0f && k < 4; k++) {
-        const float weight = gauss_weight[k] * step->dt_s * model->drive_density;
-        acceleration_response(gauss_node[k] * step->dt_s, model->memory_s, response);
-        for (int i = 0; i < 3; i++) {
-            for (int j = 0; j <= i; j++) {
-                noise[RHO_AT(i, j)] += weight * response[i] * response[j];
-            }
-        }
-    }
-    for (; doublings > 0; doublings--) { /* two steps in a row */
-        struct axis at = {.pp = noise[0], .vp = noise[1], .vv = noise[2]};
-        struct accel by = {.ap = noise[3], .av = noise[4], .aa = noise[5]};
-        propagate_axis_covariance(&at, &by, step);
-        noise[0] += at.pp;
-        noise[1] += at.vp;
-        noise[2] += at.vv;
-        noise[3] += by.ap;
-        noise[4] += by.av;
-        noise[5] += by.aa;
-        step->position_by_accel +=
-            step->dt_s * step->velocity_by_accel + step->position_by_accel * step->accel_by_accel;
-        step->velocity_by_accel += step->velocity_by_accel * step->accel_by_accel;
-        step->accel_by_accel *= step->accel_by_accel;
-        step->dt_s *= 2.0f;
+    set_response(step, model, step->dt_s);
+    for (; doublings > 0; doublings--) {
+        double_step(step);
     }
     step->dt_s = dt_s;
     step->quiet_density = model->quiet_density;

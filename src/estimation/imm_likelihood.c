@@ -253,6 +253,17 @@ void rho_imm_update_probability(struct rho_imm *imm, const float off[2], const f
     *gain_nat = match.log_likelihood;
 }
 
+/* Returns 0 where neither model's NIS is in the gate, or the density is not usable. */
+static int combine_if_in_gate(const float factor[2], const float nis[2], int num_dimensions,
+                              struct rho_imm_match *match)
+{
+    if (!(nis[0] <= RHO_IMM_GATE || nis[1] <= RHO_IMM_GATE)) {
+        return 0;
+    }
+    combine_models(factor, nis, num_dimensions, match);
+    return is_valid_log_likelihood(match->log_likelihood);
+}
+
 /*
  * NIS of a position without height and, if measured, a range rate: S = L D L^T written out. *factor
  * gets share / sqrt(det S). NIS_BEYOND_ALL and factor 0 where the model is not used.
@@ -329,6 +340,19 @@ int rho_imm_predict_rates_and_score_plot(const struct rho_imm *imm, const struct
     return rho_imm_score_plot_with_rates(imm, &rates, seen, match);
 }
 
+/* Sets the view on the steady model (0) or the manoeuvring one (1), with its range rate. */
+static inline void view_model(struct model_view *view, int model, const struct rho_imm *imm,
+                              const struct rho_imm_rates *rates, int has_rate)
+{
+    view->state = model == 0 ? imm->steady.state : imm->state;
+    view->covariance = model == 0 ? imm->steady.covariance : imm->covariance;
+    view->projected = rates->projected[model];
+    if (has_rate) {
+        view->expected_mps = rates->expected_mps[model];
+        view->rate_variance = rates->variance[model];
+    }
+}
+
 int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                                   const struct rho_imm_plot *seen, struct rho_imm_match *match)
 {
@@ -339,19 +363,18 @@ int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_im
     match->num_axes = seen->position.has_z && has_estimate_on_axis(imm, RHO_Z) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (uint8_t)has_rate;
-    for (int i = 0; i < 2; i++) {
-        struct model_view view = {
-            .state = i == 0 ? imm->steady.state : imm->state,
-            .covariance = i == 0 ? imm->steady.covariance : imm->covariance,
-            .projected = rates->projected[i],
-            .expected_mps = has_rate ? rates->expected_mps[i] : 0.0f,
-            .rate_variance = has_rate ? rates->variance[i] : 0.0f,
-        };
-        /* each kind of plot by the cheapest function; most radars' plots are the first kind */
-        if (match->num_axes < 3 && !match->has_velocity && (is_coupled || has_rate)) {
+    /* each kind of plot by the cheapest function; those of most radars have no height */
+    if (match->num_axes < 3 && !match->has_velocity && (is_coupled || has_rate)) {
+        for (int i = 0; i < 2; i++) {
+            struct model_view view;
+            view_model(&view, i, imm, rates, has_rate);
             nis[i] = nis_in_plane(&view, seen, has_rate, share[i], &factor[i]);
-            continue;
         }
+        return combine_if_in_gate(factor, nis, 2 + has_rate, match);
+    }
+    for (int i = 0; i < 2; i++) {
+        struct model_view view;
+        view_model(&view, i, imm, rates, has_rate);
         if (match->has_velocity && (is_coupled || has_rate)) {
             set_general_score(&view, seen, match);
         } else if (match->has_velocity) {
@@ -364,11 +387,8 @@ int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_im
         nis[i] = view.counts ? view.nis : NIS_BEYOND_ALL;
         factor[i] = view.counts ? floored_probability(share[i]) * view.root : 0.0f;
     }
-    if (!(nis[0] <= RHO_IMM_GATE || nis[1] <= RHO_IMM_GATE)) {
-        return 0;
-    }
-    combine_models(factor, nis, (match->has_velocity ? 2 : 1) * match->num_axes + has_rate, match);
-    return is_valid_log_likelihood(match->log_likelihood);
+    return combine_if_in_gate(factor, nis,
+                              (match->has_velocity ? 2 : 1) * match->num_axes + has_rate, match);
 }
 
 static void fill_gate_of_model(struct rho_imm_gate *gate, int model, const float *state,

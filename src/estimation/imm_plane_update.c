@@ -130,12 +130,19 @@ enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
                : RHO_ERROR_VALUE;
 }
 
+static inline void raise_to_floor(float *variance)
+{
+    *variance = rho_larger(RHO_KALMAN_VARIANCE_MIN, *variance); /* NaN stays */
+}
+
 void rho_imm_plane_floor_variances(int num_states, float *covariance)
 {
-    static const uint8_t variances[RHO_PLANE_MANOEUVRE] = {
-        RHO_XX, RHO_YY, ROW_VX + RHO_VX, ROW_VY + RHO_VY, ROW_AX + RHO_AX, ROW_AY + RHO_AY};
-    for (int i = 0; i < num_states; i++) {
-        float *variance = &covariance[variances[i]];
-        *variance = rho_larger(RHO_KALMAN_VARIANCE_MIN, *variance); /* NaN stays */
+    raise_to_floor(&covariance[RHO_XX]);
+    raise_to_floor(&covariance[RHO_YY]);
+    raise_to_floor(&covariance[ROW_VX + RHO_VX]);
+    raise_to_floor(&covariance[ROW_VY + RHO_VY]);
+    if (num_states > RHO_PLANE_STEADY) {
+        raise_to_floor(&covariance[ROW_AX + RHO_AX]);
+        raise_to_floor(&covariance[ROW_AY + RHO_AY]);
     }
 }

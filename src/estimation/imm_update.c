@@ -8,18 +8,18 @@
 #include "imm_plane_update.h"
 
 /* An axis with position and velocity exchanged, so that a velocity is measured as a position is. */
-static inline struct axis exchanged(const struct axis *at)
+static inline struct axis exchanged(struct axis at)
 {
-    return (struct axis){.p = at->v, .v = at->p, .pp = at->vv, .vp = at->vp, .vv = at->pp};
+    return (struct axis){.p = at.v, .v = at.p, .pp = at.vv, .vp = at.vp, .vv = at.pp};
 }
 
-static inline struct accel exchanged_accel(const struct accel *at)
+static inline struct accel exchanged_accel(struct accel at)
 {
-    return (struct accel){.a = at->a, .ap = at->av, .av = at->ap, .aa = at->aa};
+    return (struct accel){.a = at.a, .ap = at.av, .av = at.ap, .aa = at.aa};
 }
 
 /*
- * Updates one axis by its position; more: its acceleration, NULL for the steady model. The measured
+ * Updates one axis by its position, or by its velocity with the elements exchanged; more: its acceleration, NULL for the steady model. The measured
  * element's row is scaled by R / S instead of being reduced by a difference: no digits cancel. S is
  * never 0, as the noise variance is at least the floor. The result is a check: not finite if
  * anything computed is not.
@@ -44,41 +44,37 @@ static inline float update_axis(struct axis *at, struct accel *more, float place
     return check + at->p + at->v;
 }
 
-/*
- * Updates both models by the position, or by the velocity, axis by axis. The result is not finite
- * after a failure.
- */
-static float update_axes(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen,
-                         int by_velocity)
+/* Updates both models axis by axis; a single axis has independent noise. */
+static enum rho_status update_independent_axes(struct rho_imm *imm, int num_axes,
+                                               const struct rho_imm_plot *seen)
 {
     struct rho_kalman *kalman = &imm->steady;
-    const float variance =
-        rho_kalman_floored(by_velocity ? seen->plot->sigma_mps * seen->plot->sigma_mps
-                                       : seen->position.variance_m2[0]);
-    float check = 0.0f;
+    const float variance = rho_kalman_floored(seen->position.variance_m2[0]);
+    const float speed_variance = rho_kalman_floored(seen->plot->sigma_mps * seen->plot->sigma_mps);
+    float check = 0.0f; /* finite if everything is */
     for (int axis = 0; axis < num_axes; axis++) {
-        const float value =
-            by_velocity ? plot_velocity_component(seen->plot, axis) : seen->position.place_m[axis];
+        const float place_m = seen->position.place_m[axis];
         struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
         struct axis at = load_axis(imm->state, imm->covariance, axis);
         struct accel more = load_accel(imm, axis);
-        if (by_velocity) {
-            steady = exchanged(&steady);
-            at = exchanged(&at);
-            more = exchanged_accel(&more);
-        }
-        check += update_axis(&steady, 0, value, variance);
-        check += update_axis(&at, &more, value, variance) + more.a;
-        if (by_velocity) {
-            steady = exchanged(&steady);
-            at = exchanged(&at);
-            more = exchanged_accel(&more);
+        check += update_axis(&steady, 0, place_m, variance);
+        check += update_axis(&at, &more, place_m, variance) + more.a;
+        if (seen->measures & RHO_MEASURES_VELOCITY) {
+            const float speed_mps = plot_velocity_component(seen->plot, axis);
+            steady = exchanged(steady);
+            at = exchanged(at);
+            more = exchanged_accel(more);
+            check += update_axis(&steady, 0, speed_mps, speed_variance);
+            check += update_axis(&at, &more, speed_mps, speed_variance) + more.a;
+            steady = exchanged(steady);
+            at = exchanged(at);
+            more = exchanged_accel(more);
         }
         store_axis(kalman->state, kalman->covariance, axis, &steady);
         store_axis(imm->state, imm->covariance, axis, &at);
         store_accel(imm, axis, &more);
     }
-    return check;
+    return rho_is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
 
 static float dot_position(const float *row, const float *state)
@@ -248,17 +244,9 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
     const int is_in_plane =
         !has_estimate_on_axis(imm, RHO_Z) && !(seen->measures & RHO_MEASURES_VELOCITY);
     imm->is_coupled |= !is_simple;
-    enum rho_status status = RHO_OK;
-    if (is_simple) {
-        float check = update_axes(imm, num_axes, seen, 0);
-        if (seen->measures & RHO_MEASURES_VELOCITY) {
-            check += update_axes(imm, num_axes, seen, 1);
-        }
-        status = rho_is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
-    } else {
-        status =
-            is_in_plane ? update_in_plane(imm, seen) : update_coupled_axes(imm, num_axes, seen);
-    }
+    enum rho_status status = is_simple     ? update_independent_axes(imm, num_axes, seen)
+                             : is_in_plane ? update_in_plane(imm, seen)
+                                           : update_coupled_axes(imm, num_axes, seen);
     if (status == RHO_OK && opens) {
         const float noise = rho_kalman_floored(seen->covariance[RHO_ZZ]);
         const float speed_variance = model->speed_sigma_mps * model->speed_sigma_mps;

@@ -187,8 +187,6 @@ void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
     float dz_m = plot->z_m - (sensor ? sensor->z_m : 0.0f);
     float ground_m = root_sum_squares(dx_m, dy_m);
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
-    const float least = rho_smaller(factors.range, factors.cross);
-    const float most = rho_larger(factors.range, factors.cross);
     out->has_z = (measures & RHO_MEASURES_Z) != 0;
     out->place_m[0] = plot->x_m;
     out->place_m[1] = plot->y_m;
@@ -199,7 +197,7 @@ void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
             if (out->has_z) {
                 sigma_m = rho_larger(sigma_m, plot->sigma_up_m);
             }
-            sigma_m *= most;
+            sigma_m *= rho_larger(factors.range, factors.cross);
             out->cos_azimuth = out->cos_elevation = 1.0f;
             out->sin_azimuth = out->sin_elevation = 0.0f;
             out->variance_m2[0] = out->variance_m2[1] = out->variance_m2[2] = sigma_m * sigma_m;
@@ -216,9 +214,15 @@ void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
     out->sin_elevation = out->has_z ? dz_m / range_m : 0.0f;
     out->variance_m2[0] = scaled_variance(plot->sigma_range_m, factors.range);
     out->variance_m2[1] = scaled_variance(plot->sigma_cross_m, factors.cross);
-    /* no factor of heights is learned: the factor nearer to 1 where both are on one side of it */
-    const float height_factor = least > 1.0f ? least : most < 1.0f ? most : 1.0f;
-    out->variance_m2[2] = out->has_z ? scaled_variance(plot->sigma_up_m, height_factor) : 0.0f;
+    out->variance_m2[2] = 0.0f;
+    if (out->has_z) {
+        /* no factor of heights is learned: the one nearer to 1 where both are on one side of it */
+        const float least = rho_smaller(factors.range, factors.cross);
+        const float most = rho_larger(factors.range, factors.cross);
+        out->variance_m2[2] = scaled_variance(plot->sigma_up_m, least > 1.0f  ? least
+                                                                : most < 1.0f ? most
+                                                                              : 1.0f);
+    }
     out->is_isotropic = are_equal(out->variance_m2[0], out->variance_m2[1]) &&
                         (!out->has_z || are_equal(out->variance_m2[0], out->variance_m2[2]));
 }

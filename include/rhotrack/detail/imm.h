@@ -162,7 +162,7 @@ RHO_MUST_CHECK enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm,
 
 /*
  * Prepares a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: the origin),
- * for scoring and updates. Plot and sensor are referred to, not copied.
+ * for scoring and updates. Plot and sensor are referred to, not copied. Stack: 128 bytes.
  */
 void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor);
@@ -192,7 +192,7 @@ struct rho_imm_rates {
 
 /*
  * Fills *rates with the range rates that both models predict for a sensor. Cost: 1 400
- * instructions, without a height 400. Stack: 320 bytes.
+ * instructions, without a height 400. Stack: 328 bytes.
  */
 void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                                  const struct rho_sensor *sensor);

@@ -51,7 +51,7 @@ struct rho_kalman {
 /* A variance raised to the floor: with less an open axis would look closed. No stack. */
 static inline float rho_kalman_floored(float variance)
 {
-    return rho_larger(variance, RHO_KALMAN_VARIANCE_MIN);
+    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
 }
 
 /* Raises the variances of n states to the floor; 0 marks a closed axis and stays. No stack. */

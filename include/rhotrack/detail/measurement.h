@@ -83,7 +83,7 @@ float rho_measurement_sigma_factor_at_least_one(const struct rho_sensor *sensor)
  * the origin). A plot at the sensor's position has no line of sight: its noise is taken as
  * isotropic, with the largest of its sigmas. The sensor's factors scale the sigmas; heights take
  * the factor nearer to 1 where both lie on one side of 1. Cost: two square roots, two divisions.
- * Stack: 80 bytes.
+ * Stack: 88 bytes.
  */
 void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
                                const struct rho_sensor *sensor, struct rho_measurement *out);
