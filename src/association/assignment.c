@@ -38,8 +38,9 @@ static int is_costlier(const struct rho_assignment_pair *one,
 /* Index of a column among a row's pairs, or the number of pairs where the row does not hold it. */
 static int pair_index(const struct rho_assignment *a, int row, int column)
 {
+    const int num_pairs = a->num_pairs[row];
     int i = 0;
-    while (i < a->num_pairs[row] && a->pairs[row][i].column != column) {
+    while (i < num_pairs && a->pairs[row][i].column != column) {
         ++i;
     }
     return i;

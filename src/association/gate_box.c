@@ -124,9 +124,13 @@ int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* at high elevation the noise across is partly horizontal */
     }
-    const float slack_m = rho_hypotheses_box_margin_m(pool, slot, box, sigma_m * box->sigma_factor,
-                                                      (float)plot->offset_us *
-                                                          (plot->offset_us < 0 ? -1e-6f : 1e-6f));
+    sigma_m *= box->sigma_factor;
+    float slack_m = RHO_IMM_GATE_SIGMAS * sigma_m; /* the margin of a plot without an own time */
+    if (plot->offset_us != 0) {
+        slack_m = rho_hypotheses_box_margin_m(pool, slot, box, sigma_m,
+                                              (float)plot->offset_us *
+                                                  (plot->offset_us < 0 ? -1e-6f : 1e-6f));
+    }
     return plot->x_m >= box->x_min_m - slack_m && plot->x_m <= box->x_max_m + slack_m &&
            plot->y_m >= box->y_min_m - slack_m && plot->y_m <= box->y_max_m + slack_m &&
            (!(measures & RHO_MEASURES_Z) ||

@@ -417,8 +417,8 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
 }
 
 /*
- * Moves a hypothesis to another time. Returns 0 if it cannot be moved, and is unchanged; else a copy
- * of the moved filter is in scratch, in case the update that follows fails.
+ * Moves a hypothesis to another time. Returns 0 if it cannot be moved, and is unchanged; else
+ * scratch has a copy of the moved filter, in case the update that follows fails.
  */
 static int move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
 {

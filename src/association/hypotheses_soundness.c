@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* hypotheses_soundness: checks whether a pool of unknown origin, as a snapshot's, is safe to use. */
+/* hypotheses_soundness: whether a pool of unknown origin (a snapshot) is safe to use. */
 #include "hypotheses_pool.h"
 
 /* Number of nodes that one pass over the lists checks, to bound the stack. */

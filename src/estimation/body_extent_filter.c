@@ -118,7 +118,7 @@ static void update_side(struct rho_body_side *side, float usual_m2, float seen_m
                         float n)
 {
     const float more = n / relative_square_variance(usual_m2, own_m2);
-    const float v_m2 = rho_larger(side->mean_m2, LEAST_M2);
+    const float v_m2 = rho_larger(side->mean_m2, PLACE_LEAST_M2);
     side->weight *= more < WEIGHT_MOST ? 1.0f - more / WEIGHT_MOST : 0.0f;
     side->weight += more;
     const float gain = more / side->weight;
@@ -141,7 +141,7 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
     const float along_m2 =
         look->noise_along_m2 / n + mean_square_heading_error(body) * body->across_m2;
     update_side(&body->along, floored_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
-    body->along_m2 = rho_larger(body->along.mean_m2, LEAST_M2);
+    body->along_m2 = rho_larger(body->along.mean_m2, PLACE_LEAST_M2);
     /*
      * An error of the heading turns all plots of a look about the reference point: their apparent
      * slope is the sum of the scatterers' own slope (learned, as it lasts) and of this error, whose
@@ -150,7 +150,7 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
     const float usual_m2 = floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
     const float noise_m2 = look->noise_across_m2 / n;
     const float missed = rho_body_share_of_variance_of_plot_mean(body, look->num_plots);
-    const float sum_along_m2 = rho_larger(look->along_m2, n * LEAST_M2);
+    const float sum_along_m2 = rho_larger(look->along_m2, n * PLACE_LEAST_M2);
     const float slope = look->cross_m2 / sum_along_m2;
     const float slope_variance = (noise_m2 + missed * usual_m2) / sum_along_m2;
     const float turned = mean_square_heading_error(body);

@@ -14,7 +14,7 @@
 
 void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps)
 {
-    const float accel = ACCEL_SHARE * accel_max_mps2, quiet = QUIET_SHARE * accel_max_mps2;
+    const float accel = DRIVE_SHARE * accel_max_mps2, quiet = QUIET_SHARE * accel_max_mps2;
     const float turn_s =
         accel_max_mps2 * TURN_MAX_S > v_max_mps ? v_max_mps / accel_max_mps2 : TURN_MAX_S;
     const float memory_s = MEMORY_SHARE * turn_s, sojourn_s = SOJOURN_SHARE * turn_s;
@@ -110,7 +110,7 @@ static inline void propagate_axis_covariance(struct axis *at, struct accel *by,
     by->aa = h * h * by->aa;
 }
 
-/* Doubles the interval of the manoeuvring model's transition, with its noise: two steps in a row. */
+/* Doubles the interval of the manoeuvring model's transition: two steps in a row. */
 static void double_step(struct rho_imm_step *step)
 {
     float *noise = step->noise;
@@ -364,21 +364,12 @@ static void predict_cross_covariance(struct rho_imm *imm, int axis, int other,
     store_axis_pair(p, rows, &manoeuvre);
 }
 
-/* The models are mixed before the prediction if may_mix is 1. */
+/* The models are mixed before the prediction if their weights are given. */
 static enum rho_status predict_models(struct rho_imm *imm, const struct rho_imm_step *step,
-                                      int may_mix)
+                                      const struct mixing_weights *by)
 {
-    struct mixing_weights weights;
-    const struct mixing_weights *by = 0;
-    if (!imm || !step) {
-        return RHO_ERROR_NULL;
-    }
     if (!(step->dt_s >= -RHO_KALMAN_STEP_MAX_S && step->dt_s <= RHO_KALMAN_STEP_MAX_S)) {
         return RHO_ERROR_VALUE;
-    }
-    if (may_mix && step->begins + step->ends > 0.0f) {
-        weights = update_markov_chain(imm, step);
-        by = &weights;
     }
     if (imm->is_coupled) {
         predict_cross_covariance(imm, RHO_Y, RHO_X, by, step);
@@ -435,12 +426,19 @@ static enum rho_status predict_models(struct rho_imm *imm, const struct rho_imm_
 
 enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict_models(imm, step, 0);
+    return imm && step ? predict_models(imm, step, 0) : RHO_ERROR_NULL;
 }
 
 enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict_models(imm, step, 1);
+    if (!imm || !step) {
+        return RHO_ERROR_NULL;
+    }
+    if (!(step->begins + step->ends > 0.0f)) {
+        return predict_models(imm, step, 0);
+    }
+    const struct mixing_weights by = update_markov_chain(imm, step);
+    return predict_models(imm, step, &by);
 }
 
 void rho_imm_estimate(const struct rho_imm *imm, struct rho_kalman *estimate, float accel_mps2[3])

@@ -111,7 +111,7 @@ static int has_predicted_rate(const struct model_view *view)
     return view->rate_variance >= 0.0f;
 }
 
-/* NIS of positions, velocities and, if measured, a range rate, on coupled axes: the general case. */
+/* The general case: NIS of positions, velocities and, if measured, a range rate, axes coupled. */
 static void set_general_score(struct model_view *view, const struct rho_imm_plot *seen,
                               const struct rho_imm_match *match)
 {
@@ -302,31 +302,34 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
     const float *covariances[2] = {imm->steady.covariance, imm->covariance};
     const int has_height = has_estimate_on_axis(imm, RHO_Z);
     for (int i = 0; i < 2; i++) {
-        float *projected = rates->projected[i];
+        float *projected = rates->projected[i], spread[RHO_PLANE_MANOEUVRE];
         struct plane_rate level;
         struct rho_kalman_row rate;
         struct rho_kalman at;
-        rates->expected_mps[i] = 0.0f;
-        rates->variance[i] = -1.0f;
-        memset(projected, 0, sizeof rates->projected[i]);
         if (has_height) {
             load_kinematics(&at, states[i], covariances[i]);
             if (rho_kalman_linearise_range_rate(&at, sensor, 0.0f, FLT_MIN, &rate)) {
                 rates->expected_mps[i] = -rate.innovation;
                 rates->variance[i] =
                     rate.variance + rho_linalg_project6(at.covariance, rate.row, projected);
+                continue;
             }
         } else if (rho_imm_plane_rate(states[i], covariances[i], sensor, &level)) {
-            float spread[RHO_PLANE_MANOEUVRE];
             rates->expected_mps[i] = level.expected_mps;
             rates->variance[i] =
                 level.nonlinearity +
                 rho_imm_plane_project_rate(RHO_PLANE_STEADY, covariances[i], level.row, spread);
             projected[RHO_X] = spread[0];
             projected[RHO_Y] = spread[1];
+            projected[RHO_Z] = 0.0f;
             projected[RHO_VX] = spread[2];
             projected[RHO_VY] = spread[3];
+            projected[RHO_VZ] = 0.0f;
+            continue;
         }
+        rates->expected_mps[i] = 0.0f; /* the model's position is the sensor's */
+        rates->variance[i] = -1.0f;
+        memset(projected, 0, sizeof rates->projected[i]);
     }
 }
 

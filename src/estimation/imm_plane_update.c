@@ -132,7 +132,9 @@ enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
 
 static inline void raise_to_floor(float *variance)
 {
-    *variance = rho_larger(RHO_KALMAN_VARIANCE_MIN, *variance); /* NaN stays */
+    if (*variance < RHO_KALMAN_VARIANCE_MIN) {
+        *variance = RHO_KALMAN_VARIANCE_MIN;
+    }
 }
 
 void rho_imm_plane_floor_variances(int num_states, float *covariance)

@@ -19,10 +19,10 @@ static inline struct accel exchanged_accel(struct accel at)
 }
 
 /*
- * Updates one axis by its position, or by its velocity with the elements exchanged; more: its acceleration, NULL for the steady model. The measured
- * element's row is scaled by R / S instead of being reduced by a difference: no digits cancel. S is
- * never 0, as the noise variance is at least the floor. The result is a check: not finite if
- * anything computed is not.
+ * Updates one axis by its position, or by its velocity with the elements exchanged; more: its
+ * acceleration, NULL for the steady model. The measured element's row is scaled by R / S instead of
+ * being reduced by a difference: no digits cancel. S is never 0, as the noise variance is at least
+ * the floor. The result is a check: not finite if anything computed is not.
  */
 static inline float update_axis(struct axis *at, struct accel *more, float place_m, float variance)
 {
@@ -125,7 +125,7 @@ static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
         const float ce = has_z ? at->cos_elevation : 1.0f, se = has_z ? at->sin_elevation : 0.0f;
         const float along[3] = {ce * ca, ce * sa, se}, cross[3] = {-sa, ca, 0.0f};
         const float up[3] = {-se * ca, -se * sa, ce};
-        const float variance = has_z ? at->variance_m2[0] : rho_measurement_ground_variance(at);
+        const float variance = has_z ? at->variance_m2[0] : rho_measurement_ground_m2(at);
         status = update_position_along(imm, cross, at->place_m, at->variance_m2[1]);
         if (status == RHO_OK && has_z) {
             status = update_position_along(imm, up, at->place_m, at->variance_m2[2]);
@@ -133,9 +133,10 @@ static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
         if (status == RHO_OK) {
             status = update_position_along(imm, along, at->place_m, variance);
         }
-    }
-    for (int axis = 0; at->is_isotropic && axis < num_axes && status == RHO_OK; axis++) {
-        status = update_element(imm, axis, at->place_m[axis], at->variance_m2[0]);
+    } else {
+        for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
+            status = update_element(imm, axis, at->place_m[axis], at->variance_m2[0]);
+        }
     }
     if (seen->measures & RHO_MEASURES_VELOCITY) {
         for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
@@ -217,7 +218,7 @@ static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm
     const float ca = at->cos_azimuth, sa = at->sin_azimuth;
     enum rho_status status = update_plane_place(imm, -sa, ca, at->place_m, at->variance_m2[1]);
     if (status == RHO_OK) {
-        status = update_plane_place(imm, ca, sa, at->place_m, rho_measurement_ground_variance(at));
+        status = update_plane_place(imm, ca, sa, at->place_m, rho_measurement_ground_m2(at));
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status =

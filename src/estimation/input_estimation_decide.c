@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "input_estimation_sensitivity.h"
+#include "input_sensitivity.h"
 #include "rhotrack/detail/input_estimation.h"
 
 /* Restarts the estimation of one axis' input: 0 with this variance, and no sensitivity. */

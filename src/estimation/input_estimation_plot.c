@@ -5,7 +5,7 @@
  */
 #include <stddef.h>
 
-#include "input_estimation_sensitivity.h"
+#include "input_sensitivity.h"
 #include "rhotrack/detail/input_estimation.h"
 
 /* Updates one axis with a position; opens a closed one. */
@@ -73,7 +73,7 @@ static enum rho_status update_position(struct rho_input *input,
     struct rho_measurement level = *seen;
     float covariance[6];
     rho_measurement_covariance(seen, covariance);
-    level.variance_m2[0] = rho_measurement_ground_variance(seen);
+    level.variance_m2[0] = rho_measurement_ground_m2(seen);
     level.has_z = 0;
     status = update_in_noise_frame(input, config, &level, 2);
     return status == RHO_OK

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "input_estimation_sensitivity.h"
+#include "input_sensitivity.h"
 #include "rhotrack/detail/approx.h"
 
 static const struct rho_input no_input = {.present = 0};

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <stddef.h>
 
-#include "input_estimation_sensitivity.h"
+#include "input_sensitivity.h"
 #include "rhotrack/detail/input_estimation.h"
 
 /*

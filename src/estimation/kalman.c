@@ -299,7 +299,7 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
     struct rho_measurement level = *measurement;
     float covariance[6];
     rho_measurement_covariance(measurement, covariance);
-    level.variance_m2[0] = rho_measurement_ground_variance(measurement);
+    level.variance_m2[0] = rho_measurement_ground_m2(measurement);
     level.has_z = 0;
     const enum rho_status status = update_in_noise_frame(kalman, 2, &level, velocity_variance);
     return status == RHO_OK ? update_axis(kalman, RHO_Z, measurement->place_m[2],

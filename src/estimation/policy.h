@@ -6,13 +6,13 @@
 #ifndef RHOTRACK_ESTIMATION_POLICY_H
 #define RHOTRACK_ESTIMATION_POLICY_H
 
-/* ACCEL_SHARE to TURN_MAX_S: imm.c, tuned with targets that manoeuvre at 1 to 30 g for 4 to 8 s. */
+/* DRIVE_SHARE to TURN_MAX_S: imm.c, tuned with targets that manoeuvre at 1 to 30 g for 4 to 8 s. */
 
 /*
  * Acceleration sd of the manoeuvring model as a share of the largest one. Half: the estimate lags
  * in turns, and plots leave the gate. Twice: wider gates and noisier velocities in each turn.
  */
-#define ACCEL_SHARE 0.8f
+#define DRIVE_SHARE 0.8f
 /*
  * Memory of an acceleration as a share of the turning time v_max / accel_max, and its least value.
  * Half: a turn is forgotten between plots. Twice: it is continued beyond its end.
@@ -145,6 +145,6 @@
  * Least variance of a place on a body, m^2: a length of 0.1 m. Half or twice: the least length that
  * is reported.
  */
-#define LEAST_M2 1e-3f
+#define PLACE_LEAST_M2 1e-3f
 
 #endif

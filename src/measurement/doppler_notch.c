@@ -10,13 +10,12 @@
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
 
-#define SPEED_MAX_MPS (2.0f * RHO_LIMIT_SPEED_MPS)
-
 int rho_notch_is_valid(const struct rho_sensor *sensor)
 {
     const float notch_mps = sensor->notch_mps, blind_mps = sensor->blind_speed_mps;
-    return rho_is_within(notch_mps, 0.0f, SPEED_MAX_MPS) &&
-           rho_is_within(blind_mps, 0.0f, SPEED_MAX_MPS) &&
+    const float speed_max_mps = 2.0f * RHO_LIMIT_SPEED_MPS;
+    return rho_is_within(notch_mps, 0.0f, speed_max_mps) &&
+           rho_is_within(blind_mps, 0.0f, speed_max_mps) &&
            (!(blind_mps > 0.0f) || blind_mps > 2.0f * notch_mps);
 }
 

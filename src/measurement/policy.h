@@ -15,8 +15,9 @@
 
 /*
  * Blind zones farther from the expected range rate than this many sigmas are ignored,
- * doppler_notch.c: together they hold 6e-5 of a normal distribution. Half: up to 5 % are lost. Twice: the same probabilities at twice the cost, and with densely spaced
- * zones the uniform case comes sooner.
+ * doppler_notch.c: together they hold 6e-5 of a normal distribution. Half: up to 5 % are lost.
+ * Twice: the same probabilities at twice the cost, and with densely spaced zones the uniform case
+ * comes sooner.
  */
 #define ZONE_SIGMAS 4.0f
 /*

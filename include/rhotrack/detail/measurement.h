@@ -101,7 +101,7 @@ int rho_measurement_has_valid_place_and_biases(const struct rho_sensor *sensor);
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6]);
 
 /* Noise variance of the range along the ground. Constant cost. No stack. */
-static inline float rho_measurement_ground_variance(const struct rho_measurement *measurement)
+static inline float rho_measurement_ground_m2(const struct rho_measurement *measurement)
 {
     const float ce = measurement->cos_elevation, se = measurement->sin_elevation;
     return measurement->has_z

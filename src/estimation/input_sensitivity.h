@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_estimation_sensitivity: the sensitivity of the state to the input of each axis, one column
+ * input_sensitivity: the sensitivity of the state to the input of each axis, one column
  * an axis, and the effect of an input on an estimate. Private to
  * src/estimation/input_estimation_*.c.
  */
-#ifndef RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
-#define RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
+#ifndef RHOTRACK_INPUT_SENSITIVITY_H
+#define RHOTRACK_INPUT_SENSITIVITY_H
 
 #include <stdint.h>
 #include <string.h>
