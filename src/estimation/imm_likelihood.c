@@ -302,11 +302,11 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
     const float *covariances[2] = {imm->steady.covariance, imm->covariance};
     const int has_height = has_estimate_on_axis(imm, RHO_Z);
     for (int i = 0; i < 2; i++) {
-        float *projected = rates->projected[i], spread[RHO_PLANE_MANOEUVRE];
+        float *projected = rates->projected[i];
         struct plane_rate level;
-        struct rho_kalman_row rate;
-        struct rho_kalman at;
         if (has_height) {
+            struct rho_kalman at;
+            struct rho_kalman_row rate;
             load_kinematics(&at, states[i], covariances[i]);
             if (rho_kalman_linearise_range_rate(&at, sensor, 0.0f, FLT_MIN, &rate)) {
                 rates->expected_mps[i] = -rate.innovation;
@@ -315,6 +315,7 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
                 continue;
             }
         } else if (rho_imm_plane_rate(states[i], covariances[i], sensor, &level)) {
+            float spread[RHO_PLANE_MANOEUVRE];
             rates->expected_mps[i] = level.expected_mps;
             rates->variance[i] =
                 level.nonlinearity +

@@ -169,6 +169,11 @@ enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_v
     return RHO_OK;
 }
 
+static void floor_variances(struct rho_kalman *kalman)
+{
+    rho_kalman_floor_variances(kalman->covariance, RHO_KALMAN_STATES);
+}
+
 enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
                                   float variance, float *nis)
 {
@@ -184,7 +189,7 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
     const enum rho_status status = rho_linalg_update6_element(
         kalman->state, kalman->covariance, element, value - kalman->state[element], noise, nis);
     if (status == RHO_OK) {
-        rho_kalman_floor_variances(kalman->covariance, RHO_KALMAN_STATES);
+        floor_variances(kalman);
     }
     return status;
 }
@@ -202,7 +207,7 @@ enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row
     const enum rho_status status =
         rho_linalg_update6_row(kalman->state, kalman->covariance, row, innovation, noise, nis);
     if (status == RHO_OK) {
-        rho_kalman_floor_variances(kalman->covariance, RHO_KALMAN_STATES);
+        floor_variances(kalman);
     }
     return status;
 }

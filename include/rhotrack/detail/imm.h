@@ -151,12 +151,12 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
 /*
  * Mixes the models and predicts both. Errors: VALUE (a result not finite, or beyond
  * RHO_KALMAN_VARIANCE_MAX): then the object must not be used any more.
- * Cost: about 800 instructions, coupled with a height 1 400. Stack: 330 bytes.
+ * Cost: about 800 instructions, coupled with a height 1 400. Stack: 336 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_predict(struct rho_imm *imm,
                                                const struct rho_imm_step *step);
 
-/* Predicts both models without mixing them: to a plot's own time, or back. Stack: 330 bytes. */
+/* Predicts both models without mixing them: to a plot's own time, or back. Stack: 336 bytes. */
 RHO_MUST_CHECK enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm,
                                                        const struct rho_imm_step *step);
 
