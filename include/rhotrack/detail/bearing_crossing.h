@@ -92,9 +92,6 @@ void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_
                              float bearing_b_rad, float sigma_a_rad, float sigma_b_rad,
                              float covariance_m2[3]);
 
-/* Name of a crossing's fate in lower case ("meets", ...); "unknown" for any other value. */
-const char *rho_crossing_fate_name(enum rho_crossing_fate fate);
-
 #ifdef __cplusplus
 }
 #endif

@@ -50,6 +50,8 @@ extern "C" {
 
 /* A plot is in the gate if its NIS under either model is at most this. */
 #define RHO_IMM_GATE 30.0f
+/* its square root: the largest distance of a plot in the gate, in standard deviations */
+#define RHO_IMM_GATE_SIGMAS 5.4772256f
 
 /* Default mean time between manoeuvres of calm targets, such as airliners and ships. */
 #define RHO_IMM_CALM_S 300.0f
@@ -149,18 +151,18 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
 /*
  * Mixes the models and predicts both. Errors: VALUE (a result not finite, or beyond
  * RHO_KALMAN_VARIANCE_MAX): then the object must not be used any more.
- * Cost: about 800 instructions, coupled with a height 1 400. Stack: 330 bytes.
+ * Cost: about 800 instructions, coupled with a height 1 400. Stack: 336 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_predict(struct rho_imm *imm,
                                                const struct rho_imm_step *step);
 
-/* Predicts both models without mixing them: to a plot's own time, or back. Stack: 330 bytes. */
+/* Predicts both models without mixing them: to a plot's own time, or back. Stack: 336 bytes. */
 RHO_MUST_CHECK enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm,
                                                        const struct rho_imm_step *step);
 
 /*
  * Prepares a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: the origin),
- * for scoring and updates. Plot and sensor are referred to, not copied.
+ * for scoring and updates. Plot and sensor are referred to, not copied. Stack: 128 bytes.
  */
 void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor);
@@ -190,7 +192,7 @@ struct rho_imm_rates {
 
 /*
  * Fills *rates with the range rates that both models predict for a sensor. Cost: 1 400
- * instructions, without a height 400. Stack: 320 bytes.
+ * instructions, without a height 400. Stack: 328 bytes.
  */
 void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                                  const struct rho_sensor *sensor);

@@ -116,7 +116,7 @@ RHO_MUST_CHECK enum rho_status rho_input_predict(struct rho_input *input,
 
 /*
  * One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update; VALUE where an
- * estimated input would exceed 1e12 m/s^2. Cost: about 460 instructions, 880 coupled. Stack: 550
+ * estimated input would exceed 1e12 m/s^2. Cost: about 460 instructions, 880 coupled. Stack: 552
  * bytes.
  */
 RHO_MUST_CHECK enum rho_status
@@ -167,7 +167,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
  * the effect of an input that has ended into the estimate. To be called once a scan with a plot,
  * after its updates. If the inputs of axes are correlated, the weakest is tested first, and the
  * others conditioned on its absence. Cost: about 110 instructions, 300 where three inputs end, 1500
- * where they are coupled. Stack: 140 bytes.
+ * where they are coupled. Stack: 144 bytes.
  */
 void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_input_config *config);
 

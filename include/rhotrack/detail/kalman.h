@@ -14,6 +14,7 @@
 #ifndef RHOTRACK_KALMAN_H
 #define RHOTRACK_KALMAN_H
 
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
@@ -22,7 +23,8 @@
 extern "C" {
 #endif
 
-#define RHO_KALMAN_STATES 6
+#define RHO_AXES 3
+#define RHO_KALMAN_STATES (2 * RHO_AXES)
 
 /* Indices of the state's elements, and of the positions' covariances in the packed triangle. */
 #define RHO_X 0
@@ -38,15 +40,31 @@ extern "C" {
 #define RHO_ZY RHO_AT(RHO_Z, RHO_Y)
 #define RHO_ZZ RHO_AT(RHO_Z, RHO_Z)
 
-/* Least variance of an element of an open axis; updates keep it there. */
-#define RHO_KALMAN_VARIANCE_MIN 1.0e-9f
-/* Largest variance; larger results are refused, RHO_ERROR_VALUE. */
-#define RHO_KALMAN_VARIANCE_MAX 1.0e12f
+/* largest interval of a prediction, either way */
+#define RHO_KALMAN_STEP_MAX_S 1.0e5f
 
 struct rho_kalman {
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
 };
+
+/* A variance raised to the floor: with less an open axis would look closed. No stack. */
+static inline float rho_kalman_floored(float variance)
+{
+    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
+}
+
+/* Raises the variances of n states to the floor; 0 marks a closed axis and stays. No stack. */
+static inline void rho_kalman_floor_variances(float *covariance, int n)
+{
+    RHO_UNROLL
+    for (int i = 0; i < n; i++) {
+        float *variance = &covariance[RHO_AT(i, i)];
+        if (*variance < RHO_KALMAN_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
+            *variance = RHO_KALMAN_VARIANCE_MIN;
+        }
+    }
+}
 
 /* Sets all axes closed: state and covariance are 0. Constant cost. */
 void rho_kalman_init(struct rho_kalman *kalman);
@@ -102,19 +120,6 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int 
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
                                                      float innovation, float variance, float *nis);
-
-/*
- * Updates with 1 .. 6 elements of the state that were measured with correlated noise: elements[i]
- * as values[i], the noise's covariance a packed triangle. The covariance is made diagonal once, R =
- * L D L^T without a square root, and each row of L^-1 H is a scalar update. Elements of an axis
- * that is not open are left out. Errors: NULL, VALUE (num, an element, a value or covariance not
- * finite, a result), SINGULAR (R not positive definite, an innovation variance); unchanged.
- * Cost: about 2700 instructions for 3 elements, 6250 for 6. Stack: 570 bytes.
- */
-RHO_MUST_CHECK enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,
-                                                            const int elements[],
-                                                            const float values[],
-                                                            const float covariance[]);
 
 /*
  * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened

@@ -174,6 +174,8 @@ static void a_sector_continues_another_at_its_left_or_right_end(void **state)
     assert_int_equal(rho_angle_continued_ends(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0011f, 1.5f, 0.0f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.9989f, 1.5f, 0.0f), 0);
     /*
      * a gap between the sectors; the last argument is the largest gap allowed, and the nearer end
      * counts

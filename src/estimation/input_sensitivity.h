@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_estimation_sensitivity: the sensitivity of the state to the input of each axis, one column
+ * input_sensitivity: the sensitivity of the state to the input of each axis, one column
  * an axis, and the effect of an input on an estimate. Private to
  * src/estimation/input_estimation_*.c.
  */
-#ifndef RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
-#define RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
+#ifndef RHOTRACK_INPUT_SENSITIVITY_H
+#define RHOTRACK_INPUT_SENSITIVITY_H
 
 #include <stdint.h>
 #include <string.h>
@@ -15,17 +15,10 @@
 
 #define NUM_AXES RHO_INPUT_AXES
 #define NUM_STATES RHO_KALMAN_STATES
-#define INPUT_ALL_PRESENT 7u
+enum { INPUT_ALL_PRESENT = 7 };
 
-/* Limit of the sum of squared sensitivities: their products with any variance are finite. */
-#define SENSITIVITY2_MAX 1.0e24f
-
-/*
- * Allowance for rounding: terms that are added to a covariance have errors of some units in the
- * last place. Terms added to a variance are raised by sixteen units, so that the covariance stays
- * positive definite.
- */
-#define ROUNDING_SHARE (1.0f / 1048576.0f)
+/* Limit of squared inputs and sensitivities: their products with any variance are finite. */
+#define SQUARE_MAX 1.0e24f
 
 static inline int includes_axis(uint32_t axes, int axis)
 {
@@ -37,16 +30,13 @@ static inline int is_zero(float v)
     return !(v < 0.0f || v > 0.0f);
 }
 
-/* Bits of a float without its sign: 0 for +0 and -0 alone. */
-static inline uint32_t shifted_bits_without_sign(float v)
+/*
+ * A term that is added to a variance, raised by sixteen units of rounding: terms that are added to
+ * a covariance have errors of some units, and it must stay positive definite.
+ */
+static inline float with_allowance(float added)
 {
-    return rho_float_bits(v) << 1;
-}
-
-/* Raises a term that is added to a variance by the allowance for rounding. */
-static inline float with_rounding_allowance(float added)
-{
-    return added + added * ROUNDING_SHARE;
+    return added + added * RHO_ROUNDING_UNITS(16);
 }
 
 /* True if a column of the sensitivities is 0 outside of its own axis: the usual case. */
@@ -54,10 +44,9 @@ static inline int is_column_uncoupled(const float sensitivity[NUM_STATES], int a
 {
     static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
     const int b = others[axis][0], c = others[axis][1];
-
-    return (shifted_bits_without_sign(sensitivity[b]) | shifted_bits_without_sign(sensitivity[c]) |
-            shifted_bits_without_sign(sensitivity[b + NUM_AXES]) |
-            shifted_bits_without_sign(sensitivity[c + NUM_AXES])) == 0;
+    return (rho_size_bits(sensitivity[b]) | rho_size_bits(sensitivity[c]) |
+            rho_size_bits(sensitivity[b + NUM_AXES]) | rho_size_bits(sensitivity[c + NUM_AXES])) ==
+           0;
 }
 
 /*
@@ -73,33 +62,29 @@ static inline void add_input_effect(struct rho_kalman *kalman, const float sensi
         {RHO_YY, RHO_AT(RHO_VY, RHO_Y), RHO_AT(RHO_VY, RHO_VY)},
         {RHO_ZZ, RHO_AT(RHO_VZ, RHO_Z), RHO_AT(RHO_VZ, RHO_VZ)}};
     float *x = kalman->state, *p = kalman->covariance;
-
     if (is_column_uncoupled(sensitivity, axis)) {
         const float place = sensitivity[axis], speed = sensitivity[axis + NUM_AXES];
-
         x[axis] += place * input_mps2;
         x[axis + NUM_AXES] += speed * input_mps2;
-        p[indices[axis][0]] += with_rounding_allowance(variance * place * place);
+        p[indices[axis][0]] += with_allowance(variance * place * place);
         p[indices[axis][1]] += variance * place * speed;
-        p[indices[axis][2]] += with_rounding_allowance(variance * speed * speed);
+        p[indices[axis][2]] += with_allowance(variance * speed * speed);
         return;
     }
     for (int i = 0; i < NUM_STATES; i++) {
         const float scaled = variance * sensitivity[i];
         float *row = &p[RHO_TRIANGLE(i)];
-
         x[i] += sensitivity[i] * input_mps2;
         for (int j = 0; j < i; j++) {
             row[j] += scaled * sensitivity[j];
         }
-        row[i] += with_rounding_allowance(scaled * sensitivity[i]);
+        row[i] += with_allowance(scaled * sensitivity[i]);
     }
 }
 
 static inline int are_inputs_independent(const float v[RHO_TRIANGLE(NUM_AXES)])
 {
-    return (shifted_bits_without_sign(v[RHO_YX]) | shifted_bits_without_sign(v[RHO_ZX]) |
-            shifted_bits_without_sign(v[RHO_ZY])) == 0;
+    return (rho_size_bits(v[RHO_YX]) | rho_size_bits(v[RHO_ZX]) | rho_size_bits(v[RHO_ZY])) == 0;
 }
 
 #endif

@@ -10,31 +10,22 @@ static const char fate_names[RHO_NUM_FATES][8] = {
 
 /*
  * Converts to the nearest float: bits shifted out set the last bit, which decides the rounding.
- * Compilers' own conversion from 64 bits would link double arithmetic into firmware.
- */
-static float u64_to_float(uint64_t value)
-{
-    float scale = 1.0f;
-
-    while (value > UINT32_MAX) {
-        value = value >> 1 | (value & 1u);
-        scale *= 2.0f;
-    }
-    return (float)(uint32_t)value * scale;
-}
-
-/*
- * Divides by 1e6: a factor of 1e-6f is not exact in binary. One rounding for spans up to 2^24 us.
+ * Compilers' own conversion from 64 bits would link double arithmetic into firmware. Divides by
+ * 1e6, as a factor of 1e-6f is not exact in binary: one rounding for spans up to 2^24 us.
  */
 static float us_to_seconds(uint64_t span_us)
 {
-    return u64_to_float(span_us) / 1.0e6f;
+    float scale = 1.0f;
+    while (span_us > UINT32_MAX) {
+        span_us = span_us >> 1 | (span_us & 1u);
+        scale *= 2.0f;
+    }
+    return (float)(uint32_t)span_us * scale / 1.0e6f;
 }
 
 const char *rho_fate_name(enum rho_fate fate)
 {
     const unsigned value = (unsigned)fate;
-
     return value < RHO_NUM_FATES ? fate_names[value] : "unknown";
 }
 
@@ -55,7 +46,6 @@ float rho_seconds_between(int64_t from_us, int64_t to_us)
 {
     const uint64_t from = (uint64_t)from_us;
     const uint64_t to = (uint64_t)to_us;
-
     return from_us <= to_us ? us_to_seconds(to - from) : -us_to_seconds(from - to);
 }
 

@@ -1,34 +1,29 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hypotheses_nodes_filters_and_weights: functions on the pool's nodes and filters. Private to
- * hypotheses*.c and gate_box.c.
- */
-#ifndef RHOTRACK_HYPOTHESES_NODES_FILTERS_AND_WEIGHTS_H
-#define RHOTRACK_HYPOTHESES_NODES_FILTERS_AND_WEIGHTS_H
+/* hypotheses_pool: the pool's nodes and filters. Private to hypotheses*.c and gate_box.c. */
+#ifndef RHOTRACK_HYPOTHESES_POOL_H
+#define RHOTRACK_HYPOTHESES_POOL_H
 
 #include "rhotrack/detail/hypotheses.h"
 
-#define RHO_HYPOTHESES_MAGIC 0x4859504fu /* "HYPO" */
+enum { RHO_HYPOTHESES_MAGIC = 0x4859504f }; /* "HYPO" */
 
 /* True where a slot of an initialised pool has hypotheses. */
-int rho_hypotheses_has_any_in_slot(const struct rho_hypotheses *pool, uint16_t slot);
+int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot);
 
 /* Takes a node off the pool's stack of free nodes; num_free must not be 0. */
-uint16_t rho_hypotheses_pop_free_hypothesis_node(struct rho_hypotheses *pool);
+uint16_t rho_hypotheses_pop_node(struct rho_hypotheses *pool);
 /* Puts a node, which no slot lists any more, on the pool's stack of free nodes. */
-void rho_hypotheses_push_free_node(struct rho_hypotheses *pool, uint16_t node);
+void rho_hypotheses_push_node(struct rho_hypotheses *pool, uint16_t node);
 
 /*
  * Makes room for `wanted` hypotheses of a slot: removes the least likely hypotheses of the slots
  * with the most. Returns how many the slot can have, at most `wanted`.
  */
-unsigned rho_hypotheses_room_after_cutting_others(struct rho_hypotheses *pool, uint16_t slot,
-                                                  unsigned wanted);
+unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted);
 
 /* Predicts one filter to another time without mixing its models: to a plot's own time, or back. */
-enum rho_status rho_hypotheses_predict_one_filter_unmixed(struct rho_hypotheses *pool,
-                                                          struct rho_imm *imm, int64_t from_us,
-                                                          int64_t to_us);
+enum rho_status rho_hypotheses_predict_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
+                                              int64_t from_us, int64_t to_us);
 
 /*
  * Filter of a hypothesis at a given time: its own, or a copy in the pool's scratch that was
