@@ -314,6 +314,7 @@ struct rho_tracker {
     int32_t start_mnat, confirm_mnat;
     /* mean per turn; a clutter density follows from it where no initiator measures one */
     float unclaimed_plots;
+    float clutter_per_m2;     /* stated clutter density; 0: none */
     float unclaimed_bearings; /* mean per scan of a passive sensor */
     struct rho_extent extent; /* rectangle that holds all valid plots so far */
     uint16_t num_sensors;     /* described sensors: the first rows of `sensors` */
@@ -438,6 +439,14 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker,
                                                          int32_t sensor_id);
+
+/*
+ * States the clutter density of the next scans, plots a m^2, where no initiator measures it: that
+ * of a beam which follows its target does not follow from the plots of all scans. Clutter counts as
+ * uniform over 20 km of height and all velocities up to v_max. 0: it is measured, as before a call.
+ * Errors: NULL, STATE, VALUE (not 0 .. 1e30). Constant cost.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_set_clutter(struct rho_tracker *tracker, float per_m2);
 
 /* Noise, detection probability, notch and resolution of a sensor, as learned and used. */
 struct rho_tracker_known {

@@ -15,11 +15,27 @@
 /* Weight of the newest scan in a smoothed count of plots: a memory of ten scans. */
 #define CLUTTER_SMOOTHING 0.1f
 
-/* Lower bound of the clutter density at a plot, 1/m^2. */
+/* Lower bound of the clutter density at a plot, 1/m^2, and upper bound of a stated one. */
 #define DENSITY_MIN 1e-12f
+#define DENSITY_MAX 1e30f
 
 /* Radius of the circle that stands for a track's gate, standard deviations of the track's place. */
 #define GATE_SIGMAS 3.0f
+
+enum rho_status rho_tracker_set_clutter(struct rho_tracker *tracker, float per_m2)
+{
+    if (!tracker) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_is_within(per_m2, 0.0f, DENSITY_MAX)) {
+        return RHO_ERROR_VALUE;
+    }
+    tracker->clutter_per_m2 = per_m2;
+    return RHO_OK;
+}
 
 float rho_clutter_background(const struct rho_look *look, float x_m, float y_m)
 {
@@ -29,6 +45,9 @@ float rho_clutter_background(const struct rho_look *look, float x_m, float y_m)
         if (density > 0.0f) {
             return density;
         }
+    }
+    if (tracker->clutter_per_m2 > 0.0f) {
+        return tracker->clutter_per_m2;
     }
     float area_m2 = rho_extent_area_m2(&tracker->extent, RHO_CLUTTER_SIDE_MIN_M);
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;

@@ -137,6 +137,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_tracker_is_score_in_range(tracker->start_mnat) &&
            rho_tracker_is_score_in_range(tracker->confirm_mnat) && tracker->looks_max > 0 &&
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
+           rho_is_within(tracker->clutter_per_m2, 0.0f, 1e30f) &&
            rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
            rho_is_within(tracker->ended_early, 0.0f, 1e9f) &&
            rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&

@@ -23,7 +23,7 @@ from parts.maneuver_truth_and_plots import CLEAN_SCANS, INTERVAL_S, SCANS, Scene
 from parts.maneuver_follow_one_scene import FIRST_RUNS, Method, follow, outcome_of, summary_of
 
 NAN = math.nan
-CHUNK = 100  # runs side by side
+CHUNK = 25  # runs side by side
 
 # ---- cases ----
 

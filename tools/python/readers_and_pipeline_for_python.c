@@ -19,7 +19,7 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/merge_plots_and_bearings.h"
 #include "live/node_core.h"
-#include "maintenance/maintainer_of_one_track.h"
+#include "maintenance/maintainer.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/measurement.h"
 #include "settings/initiation_method_names_and_configs.h"
@@ -1068,11 +1068,8 @@ struct program_maintainers *program_maintainers_new(const struct parameters *set
     made->hypotheses = must_calloc(count, sizeof *made->hypotheses);
     made->tracks.has_covariances = has_covariances;
     for (size_t i = 0; i < count; i++) {
-        const size_t first = i - i % MAINTAINERS_BESIDE;
-
         made->list[i] = (struct program_maintainer){
-            .maintainer = i == first ? maintainer_new(gate, has_input_estimation, settings)
-                                     : maintainer_new_sharing_pool(made->list[first].maintainer),
+            .maintainer = maintainer_new(gate, has_input_estimation, settings),
             .random = random_start(seed, 0, i)};
     }
     return made;
@@ -1080,7 +1077,7 @@ struct program_maintainers *program_maintainers_new(const struct parameters *set
 
 void program_maintainers_free(struct program_maintainers *made)
 {
-    for (size_t i = made->count; i-- > 0;) { /* the first of a pool is freed last */
+    for (size_t i = 0; i < made->count; i++) {
         maintainer_free(made->list[i].maintainer);
     }
     program_tracks_free(&made->tracks);
@@ -1090,22 +1087,15 @@ void program_maintainers_free(struct program_maintainers *made)
     free(made);
 }
 
-/* Appends the track with its numbers of hypotheses and refused updates, if it has started. */
-static void append_track_of_maintainer_if_started(struct program_maintainers *made, size_t index,
-                                                  int64_t time_us)
+static void append_track_of_maintainer(struct program_maintainers *made, size_t index,
+                                       int64_t time_us, const struct rho_track_report *report)
 {
-    struct maintainer *maintainer = made->list[index].maintainer;
-    struct maintainer_estimate estimate;
+    struct rho_track_report track = *report;
 
-    if (maintainer_is_started(maintainer)) {
-        struct rho_track_report track = *maintainer_report(maintainer);
-
-        track.track_id = (uint32_t)index + 1;
-        add_track(&made->tracks, time_us, &track);
-        maintainer_estimate(maintainer, &estimate);
-        made->hypotheses[index] = estimate.num_hypotheses;
-        made->refused[index] = maintainer_num_filter_refusals(maintainer);
-    }
+    track.track_id = (uint32_t)index + 1;
+    add_track(&made->tracks, time_us, &track);
+    made->hypotheses[index] = track.num_hypotheses;
+    made->refused[index] = maintainer_refusals(made->list[index].maintainer);
 }
 
 bool program_maintainers_predict(struct program_maintainers *made, double t_s, double *places_m)
@@ -1117,12 +1107,12 @@ bool program_maintainers_predict(struct program_maintainers *made, double t_s, d
     }
     for (size_t i = 0; i < made->count; i++) {
         double *place_m = &places_m[3 * i];
+        struct rho_track_report predicted;
 
         place_m[0] = place_m[1] = place_m[2] = NAN;
         if (maintainer_is_started(made->list[i].maintainer)) {
-            maintainer_predict(made->list[i].maintainer, seconds_to_us(t_s));
-            maintainer_predicted_place(made->list[i].maintainer, place_m);
-            append_track_of_maintainer_if_started(made, i, seconds_to_us(t_s));
+            maintainer_predict(made->list[i].maintainer, seconds_to_us(t_s), &predicted, place_m);
+            append_track_of_maintainer(made, i, seconds_to_us(t_s), &predicted);
         }
     }
     return true;
@@ -1140,10 +1130,12 @@ bool program_maintainers_run(struct program_maintainers *made, const struct prog
         if (scan->is_frame) {
             fail(EXIT_USAGE, "scan %zu: a track alone takes plots, but these are bearings", i);
         }
-        (void)maintainer_step_and_get_row(one->maintainer, &scan->scan,
-                                          scan->has_sensor ? &scan->sensor : NULL,
-                                          log_densities ? log_densities[i] : NAN, &one->random);
-        append_track_of_maintainer_if_started(made, i % made->count, scan->scan.time_us);
+        (void)maintainer_step(one->maintainer, &scan->scan, scan->has_sensor ? &scan->sensor : NULL,
+                              log_densities ? log_densities[i] : NAN, &one->random);
+        if (maintainer_is_started(one->maintainer)) {
+            append_track_of_maintainer(made, i % made->count, scan->scan.time_us,
+                                       maintainer_report(one->maintainer));
+        }
     }
     return true;
 }

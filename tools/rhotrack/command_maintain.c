@@ -10,8 +10,7 @@
 #include "io/output/tracks_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/plot_scan_reader.h"
-#include "maintenance/maintainer_of_one_track.h"
-#include "rhotrack/detail/measurement.h"
+#include "maintenance/maintainer.h"
 
 struct maintaining {
     struct maintainer *maintainer;
@@ -59,33 +58,19 @@ static void warn_of_unobservable_inputs(const struct command_line *line, enum ma
 
 /* ---- Steps ---- */
 
-static void count_plot_fates(struct maintaining *maintaining, const struct rho_scan *scan,
-                             int claimed_plot)
-{
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        bool is_valid = rho_measurement_is_valid_plot(&scan->plots[i], scan->measures);
-        enum rho_fate fate = (int64_t)i == claimed_plot ? RHO_FATE_CLAIMED
-                             : !is_valid                ? RHO_FATE_INVALID
-                             : i > MAINTAINER_ROW_MAX && maintaining->gate == MAINTAIN_BEST
-                                 ? RHO_FATE_NO_ROOM
-                                 : RHO_FATE_HELD;
-
-        maintaining->fates[fate]++;
-    }
-}
-
 static void step_and_time_scan(struct maintaining *maintaining, const struct rho_scan *scan,
                                const struct rho_sensor *sensor)
 {
     int64_t start_us = monotonic_clock_us(), took_us;
-    int row = maintainer_step_and_get_row(maintaining->maintainer, scan, sensor, NAN,
-                                          &maintaining->random);
 
+    (void)maintainer_step(maintaining->maintainer, scan, sensor, NAN, &maintaining->random);
     took_us = monotonic_clock_us() - start_us;
     maintaining->scans++;
     maintaining->sum_us += took_us;
     maintaining->max_us = took_us > maintaining->max_us ? took_us : maintaining->max_us;
-    count_plot_fates(maintaining, scan, row);
+    for (int i = 0; i < RHO_NUM_FATES; i++) {
+        maintaining->fates[i] += maintainer_fates(maintaining->maintainer)[i];
+    }
 }
 
 static void step_maintainer_and_write_all_scans(struct maintaining *maintaining,
@@ -131,7 +116,7 @@ static void print_summary(const struct maintaining *maintaining,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots: %u claimed, %u misses, %lu updates "
             "refused",
             maintaining->scans, counts->plots, (unsigned)track->hits, (unsigned)track->misses,
-            maintainer_num_filter_refusals(maintaining->maintainer));
+            maintainer_refusals(maintaining->maintainer));
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
@@ -171,7 +156,7 @@ static void print_run_json(const struct maintaining *maintaining, const struct c
     cJSON_AddNumberToObject(object, "state_bytes",
                             (double)maintainer_state_bytes(maintaining->maintainer));
     cJSON_AddNumberToObject(object, "updates_refused",
-                            (double)maintainer_num_filter_refusals(maintaining->maintainer));
+                            (double)maintainer_refusals(maintaining->maintainer));
     json_print_and_delete(object);
 }
 

@@ -13,6 +13,7 @@ from parts.maneuver_truth_and_plots import (CLEAN_SCANS, G_MPS2, INTERVAL_S, SCA
 
 FIRST_RUNS = 50  # the paper's number
 JUDGED_SCAN = 8  # errors count from here on, losses from the end of the clean scans
+FAST_MPS = 2000.0  # speed that targets do not exceed which pull 30 g for four seconds
 PAPER_VARIANCE = 500.0  # P(0|0) and V(0)
 START_SIGMA_MPS2 = 200.0  # of accelerations, which are not measured
 STEADY_MPS2, STAY = 2.0, 0.97  # of the IMM that knows the plots
@@ -59,7 +60,8 @@ def follow(scene, method, seed):
 
 def settings_of(setting, method):
     return rhotrack.Settings(
-        gate=method.gate, sigma_m=setting.sigma_m, v_max_mps=START_SIGMA_MPS,
+        gate=method.gate, sigma_m=setting.sigma_m,
+        v_max_mps=START_SIGMA_MPS if setting.pull_g <= 10 else FAST_MPS,
         accel_max_mps2=setting.told_g * G_MPS2, gamma=method.gamma,
         input_model="physical" if method.physical else "literal", filter_noise_m=method.noise,
         filter_noise_mps=method.noise, input_sigma_mps2=math.sqrt(PAPER_VARIANCE),

@@ -15,11 +15,8 @@
 /* number of parts of the data, each left out once to find the sigma of a figure (jackknife) */
 #define PARTS 10
 #define SEGMENTS_MIN 4
-#define LOOKS_MIN 100
+#define LOOKS_MIN 50
 #define TURNS_MIN 6
-/* first plots of a track, which pd is not counted from: without them there would be no track */
-#define START_PLOTS 6
-#define TRACK_PLOTS_MIN 12
 #define MOVING_SIGMAS 4.0
 
 /* The square of a standard normal variable, cut at CUT^2 = 4, has this mean. */
@@ -361,53 +358,23 @@ static double covered_area_km2(const struct radar_data *radar, bool is_isotropic
 /* ---- pd ---- */
 
 /*
- * Counts a track's looks and hits after its first START_PLOTS plots: without those the track would
- * not have been found, so that they would make pd too large. Short tracks count 0.
+ * The share of looks with a plot, as the tracker has counted it of its last tracks: of looks that
+ * follow a look with a plot, once a track is established. One hit and one miss are added, as a
+ * share of 1 would end tracks at their first miss.
  */
-static void count_looks_and_hits(const struct register_data *data, const struct radar_track *track,
-                                 double turn_s, double *looks, double *hits)
+static struct calibrate_figure pd_by_learned_looks(const struct rho_tracker_learned *learned)
 {
-    const struct radar_plot *plots = data->radars[track->radar].plots;
-    const struct radar_plot *first, *last;
-
-    *looks = *hits = 0.0;
-    if (track->count < TRACK_PLOTS_MIN) {
-        return;
-    }
-    first = &plots[track->plots[START_PLOTS]];
-    last = &plots[track->plots[track->count - 1]];
-    *hits = (double)(track->count - 1 - START_PLOTS);
-    *looks = fmax(round((double)(last->time_us - first->time_us) * 1e-6 / turn_s), *hits);
-}
-
-static struct calibrate_figure estimate_pd(const struct register_data *data, size_t radar_number,
-                                           double turn_s)
-{
-    double looks[PARTS + 1] = {0.0}, hits[PARTS + 1] = {0.0};
+    double looks = 0.0, hits = 0.0;
     struct calibrate_figure figure = {.is_known = false};
-    struct jackknife_figures jackknife_figures;
 
-    for (size_t i = 0; i < data->num_tracks; i++) {
-        double looks_of, hits_of;
-
-        if (data->tracks[i].radar == radar_number) {
-            count_looks_and_hits(data, &data->tracks[i], turn_s, &looks_of, &hits_of);
-            for (int part = 0; part <= PARTS; part++) {
-                const bool is_in = (int)(i % PARTS) != part;
-                looks[part] += is_in ? looks_of : 0.0;
-                hits[part] += is_in ? hits_of : 0.0;
-            }
-        }
+    for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        looks += (double)learned->looks[ring];
+        hits += (double)learned->hits[ring];
     }
-    if (looks[PARTS] >= LOOKS_MIN) {
-        const double pd = hits[PARTS] / looks[PARTS];
-        for (int part = 0; part < PARTS; part++) {
-            jackknife_figures.without[part] = looks[part] > 0.0 ? hits[part] / looks[part] : pd;
-        }
-        /* at least the binomial standard error: the jackknife is too small with very few tracks */
-        figure = (struct calibrate_figure){true, pd,
-                                           fmax(jackknife_sigma(&jackknife_figures),
-                                                sqrt((pd * (1.0 - pd) + 0.01) / looks[PARTS]))};
+    if (looks >= LOOKS_MIN) {
+        const double pd = (hits + 1.0) / (looks + 2.0);
+
+        figure = (struct calibrate_figure){true, pd, sqrt((pd * (1.0 - pd) + 0.01) / looks)};
     }
     return figure;
 }
@@ -520,10 +487,7 @@ static void estimate_noise_pd_clutter_and_turn_of_radar(struct register_data *da
     out->area_km2 = covered_area_km2(radar, out->is_isotropic);
     out->figures[CALIBRATE_TURN] = estimate_turn_time(&turns);
     out->figures[CALIBRATE_CLUTTER] = estimate_clutter(data, radar_number, &turns);
-    if (out->figures[CALIBRATE_TURN].is_known) {
-        out->figures[CALIBRATE_PD] =
-            estimate_pd(data, radar_number, out->figures[CALIBRATE_TURN].value);
-    }
+    out->figures[CALIBRATE_PD] = pd_by_learned_looks(&pipeline->tracker->sensors[0].learned);
     find_speed_extremes(&segments, &out->figures[CALIBRATE_FASTEST],
                         &out->figures[CALIBRATE_SLOWEST]);
     restore_noise_and_find_innovations(data, radar_number, out, stated);

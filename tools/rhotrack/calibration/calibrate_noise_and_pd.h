@@ -6,7 +6,7 @@
  * The library's tracker makes tracks of each radar's plots alone (register_tracks). The tracks are
  * cut into segments of ten plots, and a parabola is fitted to each; the residuals along and across
  * the line of sight give the radar's noise. Tracks are found again with this noise until it
- * converges. The other figures come from the last tracks.
+ * converges. The other figures come from the last tracks, pd from what the tracker has learned.
  */
 #ifndef RHOTRACK_TOOL_CALIBRATE_NOISE_AND_PD_H
 #define RHOTRACK_TOOL_CALIBRATE_NOISE_AND_PD_H

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The command `maintain` from inside: which plot each gate takes and which estimate follows,
- * compared with double precision and brute force; and its estimate of the clutter density, compared
- * with the density that scans were drawn from.
+ * compared with double precision and brute force; a track that the tracker ends starts again; and
+ * the estimate of the clutter density, compared with the density that scans were drawn from.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 #include <math.h>
 
 #include "base/random.h"
-#include "maintenance/maintainer_of_one_track.h"
+#include "maintenance/maintainer.h"
 #include "maintenance/scan_clutter_density.h"
 #include "rhotrack/detail/linalg.h"
 
@@ -44,7 +44,7 @@ static struct rho_plot plot_at(const double place_m[3], const double velocity_mp
                              .sigma_mps = 3.0f};
 }
 
-/* ---- a Kalman filter in double precision, its axes independent as the noise is isotropic ----- */
+/* a Kalman filter in double precision, its axes independent as the noise is isotropic */
 
 struct axis {
     double x, v, xx, xv, vv;
@@ -80,19 +80,16 @@ static void axis_update(struct axis *a, double x, double v, double r_m, double r
     a->vv = b.vv - kvx * b.xv - kvv * b.vv;
 }
 
-static double axis_nis(const struct axis *a, double x, double v, double r_m, double r_mps)
+/* The normalised innovation squared of a plot's place, which alone chooses it. */
+static double nis_of_place(const struct axis axes[3], const struct rho_plot *plot)
 {
-    double sxx = a->xx + r_m * r_m, svv = a->vv + r_mps * r_mps, det = sxx * svv - a->xv * a->xv;
-    double dx = x - a->x, dv = v - a->v;
+    const double place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
+    double sum = 0.0;
 
-    return (svv * dx * dx - 2.0 * a->xv * dx * dv + sxx * dv * dv) / det;
-}
-
-static double nis_of_plot(const struct axis axes[3], const struct rho_plot *plot)
-{
-    return axis_nis(&axes[0], plot->x_m, plot->vx_mps, 10.0, 3.0) +
-           axis_nis(&axes[1], plot->y_m, plot->vy_mps, 10.0, 3.0) +
-           axis_nis(&axes[2], plot->z_m, plot->vz_mps, 10.0, 3.0);
+    for (int k = 0; k < 3; k++) {
+        sum += (place_m[k] - axes[k].x) * (place_m[k] - axes[k].x) / (axes[k].xx + 100.0);
+    }
+    return sum;
 }
 
 static void update_axes(struct axis axes[3], const struct rho_plot *plot)
@@ -102,7 +99,7 @@ static void update_axes(struct axis axes[3], const struct rho_plot *plot)
     axis_update(&axes[2], plot->z_m, plot->vz_mps, 10.0, 3.0);
 }
 
-/* ---- random scans about a target ------------------------------------------------------------- */
+/* random scans about a target */
 
 #define PLOTS 5
 
@@ -142,9 +139,11 @@ static struct maintainer *start_maintainer(enum maintainer_gate gate, bool has_i
                                            const struct parameters *parameters)
 {
     struct maintainer *maintainer = maintainer_new(gate, has_input_estimation, parameters);
+    struct random random = random_start(9, 0, 0);
     struct rho_plot plot = plot_at(start_m, start_mps);
+    struct rho_scan scan = scan_of(0, &plot, 1, ALL);
 
-    maintainer_start(maintainer, 0, &plot, ALL, NULL);
+    assert_int_equal(maintainer_step(maintainer, &scan, NULL, NAN, &random), 0);
     return maintainer;
 }
 
@@ -156,14 +155,14 @@ static void assert_near(double value, double expected, double most)
     assert_true(fabs(value - expected) <= most);
 }
 
-/* ---- gate nearest ---------------------------------------------------------------------------- */
+/* gate nearest */
 
 static void gate_nearest_takes_the_least_nis_as_in_double_precision(void **state)
 {
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(1, 0, 0);
     struct maintainer *maintainer;
-    struct maintainer_estimate estimate;
+    const struct rho_track_report *track;
     struct axis axes[3];
     double place_m[3];
     int not_first = 0;
@@ -183,112 +182,35 @@ static void gate_nearest_takes_the_least_nis_as_in_double_precision(void **state
 
         move_place_by_one_scan(place_m);
         draw_plots_about(plots, place_m, start_mps, &random);
-        maintainer_predict(maintainer, scan.time_us);
         for (int k = 0; k < 3; k++) {
             axis_predict(&axes[k], DT_S, 2.0, 4.0);
         }
         for (int i = 0; i < PLOTS; i++) {
-            double expected = nis_of_plot(axes, &plots[i]);
-
-            assert_near(maintainer_nis_per_dimension(maintainer, &plots[i], ALL), expected / 6.0,
-                        2e-3 * (1.0 + expected / 6.0));
-            nearest = expected < nis_of_plot(axes, &plots[nearest]) ? i : nearest;
+            nearest =
+                nis_of_place(axes, &plots[i]) < nis_of_place(axes, &plots[nearest]) ? i : nearest;
         }
-        row = maintainer_update_and_get_row(maintainer, &scan, NULL, NAN, 0.9, &random);
+        row = maintainer_step(maintainer, &scan, NULL, NAN, &random);
         assert_int_equal(row, nearest);
         not_first += row > 0;
         update_axes(axes, &plots[row]);
     }
     assert_true(not_first > 200);
-    maintainer_estimate(maintainer, &estimate);
+    track = maintainer_report(maintainer);
     for (int k = 0; k < 3; k++) {
-        assert_near(estimate.kalman.state[k], axes[k].x, 0.02);
-        assert_near(estimate.kalman.state[k + 3], axes[k].v, 0.02);
-        assert_near(estimate.kalman.covariance[RHO_AT(k, k)], axes[k].xx, 1e-3 * axes[k].xx);
-        assert_near(estimate.accel_mps2[k], 0.0, 0.0);
+        assert_near(track->state[k], axes[k].x, 0.02);
+        assert_near(track->state[k + 3], axes[k].v, 0.02);
+        assert_near(track->covariance[RHO_AT(k, k)], axes[k].xx, 1e-3 * axes[k].xx);
+        assert_near(track->accel_mps2[k], 0.0, 0.0);
     }
-    assert_int_equal(maintainer_num_filter_refusals(maintainer), 0);
+    assert_int_equal(maintainer_refusals(maintainer), 0);
     maintainer_free(maintainer);
-}
-
-/*
- * A radar's plot at 30 degrees: sigmas 15 m along the line of sight and 180 m across, with a range
- * rate.
- */
-static void nis_uses_the_noise_ellipse_and_range_rate_of_a_plot(void **state)
-{
-    const double c = cos(PI / 6.0), s = sin(PI / 6.0), range_m = 60000.0;
-    struct parameters parameters = parameters_at_default();
-    struct maintainer *maintainer;
-    struct rho_plot plot = {.x_m = (float)(range_m * c),
-                            .y_m = (float)(range_m * s),
-                            .sigma_range_m = 15.0f,
-                            .sigma_cross_m = 180.0f,
-                            .sigma_range_rate_mps = 2.0f};
-    /*
-     * variances: two plots, the process noise, and an unknown velocity of 100 m/s over one second
-     */
-    double along2 = 2.0 * 15.0 * 15.0 + 1.0 + 1e4, across2 = 2.0 * 180.0 * 180.0 + 1.0 + 1e4;
-    double both = 1e4, rate2 = 1e4 + 1.0 + 4.0, det = along2 * rate2 - both * both;
-    double expected;
-    (void)state;
-
-    parameters_set_assignment(&parameters, "v_max_mps=100");
-    maintainer = maintainer_new(MAINTAIN_NEAREST, false, &parameters);
-    maintainer_start(maintainer, 0, &plot, 0, NULL);
-    maintainer_predict(maintainer, 1000000);
-    plot.x_m = (float)(range_m * c + 100.0 * c - 300.0 * s);
-    plot.y_m = (float)(range_m * s + 100.0 * s + 300.0 * c);
-    expected = 100.0 * 100.0 / along2 + 300.0 * 300.0 / across2;
-    /* between the plots the line of sight turned by 5 mrad */
-    assert_near(maintainer_nis_per_dimension(maintainer, &plot, 0), expected / 2.0,
-                0.01 * expected);
-    plot.range_rate_mps = -30.0f;
-    expected = (rate2 * 1e4 + 2.0 * both * 3000.0 + along2 * 900.0) / det + 300.0 * 300.0 / across2;
-    assert_near(maintainer_nis_per_dimension(maintainer, &plot, RHO_MEASURES_RANGE_RATE),
-                expected / 3.0, 0.01 * expected);
-    maintainer_free(maintainer);
-}
-
-/*
- * In the first scan after the start no input was estimated yet, so its prior D V(0) D^T widens the
- * gate.
- */
-static void check_nis_in_first_scan(const char *model, double place_gain_of_input)
-{
-    struct parameters parameters = parameters_at_default();
-    struct maintainer *maintainer;
-    struct rho_plot plot = plot_at(start_m, start_mps);
-    struct axis axes[3];
-    double d_mps = DT_S, v0 = 22.36 * 22.36;
-
-    parameters_set_assignment(&parameters, model);
-    maintainer = start_maintainer(MAINTAIN_NEAREST, true, &parameters);
-    for (int k = 0; k < 3; k++) {
-        axes[k] = axis_start(start_m[k], start_mps[k], 10.0, 3.0);
-        axis_predict(&axes[k], DT_S, 1.0, 1.0);
-        axes[k].xx += place_gain_of_input * place_gain_of_input * v0;
-        axes[k].xv += place_gain_of_input * d_mps * v0;
-        axes[k].vv += d_mps * d_mps * v0;
-    }
-    maintainer_predict(maintainer, DT_US);
-    assert_near(maintainer_nis_per_dimension(maintainer, &plot, ALL),
-                nis_of_plot(axes, &plot) / 6.0, 1e-4 * nis_of_plot(axes, &plot));
-    maintainer_free(maintainer);
-}
-
-static void the_first_gate_is_widened_by_the_prior_of_the_input(void **state)
-{
-    (void)state;
-    check_nis_in_first_scan("input_model=literal", 0.0);
-    check_nis_in_first_scan("input_model=physical", DT_S * DT_S / 2.0);
 }
 
 static void an_acceleration_is_detected_and_reported(void **state)
 {
     struct parameters parameters = parameters_at_default();
     struct maintainer *maintainer;
-    struct maintainer_estimate estimate;
+    const struct rho_track_report *track = NULL;
     double place_m[3], velocity_mps[3];
     (void)state;
 
@@ -309,19 +231,18 @@ static void an_acceleration_is_detected_and_reported(void **state)
             velocity_mps[k] += DT_S * pull_mps2;
         }
         plot = plot_at(place_m, velocity_mps);
-        maintainer_predict(maintainer, scan.time_us);
-        assert_int_equal(maintainer_update_and_get_row(maintainer, &scan, NULL, NAN, 0.9, NULL), 0);
-        maintainer_estimate(maintainer, &estimate);
-        assert_near(estimate.maneuver_probability, step > 20 ? 1.0 : 0.0, 0.0);
+        assert_int_equal(maintainer_step(maintainer, &scan, NULL, NAN, NULL), 0);
+        track = maintainer_report(maintainer);
+        assert_near(track->maneuver_probability, step > 20 ? 1.0 : 0.0, 0.0);
     }
-    assert_near(estimate.accel_mps2[0], 0.0, 0.0);
-    assert_near(estimate.accel_mps2[1], 0.0, 0.0);
-    assert_near(estimate.accel_mps2[2], 98.0, 10.0);
-    assert_near(estimate.kalman.state[5], velocity_mps[2], 3.0);
+    assert_near(track->accel_mps2[0], 0.0, 0.0);
+    assert_near(track->accel_mps2[1], 0.0, 0.0);
+    assert_near(track->accel_mps2[2], 98.0, 10.0);
+    assert_near(track->state[5], velocity_mps[2], 3.0);
     maintainer_free(maintainer);
 }
 
-/* ---- gate hough ------------------------------------------------------------------------------ */
+/* gate hough */
 
 static double velocity_change_along(const double from[3], const double to[3], const int plane[2],
                                     double theta)
@@ -364,22 +285,19 @@ static double rho_change_of_plot(const double before[3], const double newest[3],
 
 static void estimated_velocity(const struct maintainer *maintainer, double velocity_mps[3])
 {
-    struct maintainer_estimate estimate;
-
-    maintainer_estimate(maintainer, &estimate);
     for (int k = 0; k < 3; k++) {
-        velocity_mps[k] = estimate.kalman.state[k + 3];
+        velocity_mps[k] = maintainer_report(maintainer)->state[k + 3];
     }
 }
 
 /* How often a choice was compared, and how often it was not the nearest plot. */
 struct tally {
-    int early, early_differs, compared, other_than_nearest;
+    int early, early_nearest, early_differs, compared, other_than_nearest;
 };
 
 /*
  * From the fourth measurement on the plot whose velocity changes rho least is taken, before that
- * the nearest one.
+ * the likeliest one.
  */
 static void check_hough_choices(uint64_t seed, int steps, struct tally *tally)
 {
@@ -404,13 +322,11 @@ static void check_hough_choices(uint64_t seed, int steps, struct tally *tally)
             expected = score < least ? i : expected;
             least = fmin(score, least);
         }
-        maintainer_predict(maintainer, scan.time_us);
-        maintainer_predict(nearest, scan.time_us);
-        row = maintainer_update_and_get_row(maintainer, &scan, NULL, NAN, 0.9, &random);
-        its = maintainer_update_and_get_row(nearest, &scan, NULL, NAN, 0.9, &random);
+        row = maintainer_step(maintainer, &scan, NULL, NAN, &random);
+        its = maintainer_step(nearest, &scan, NULL, NAN, &random);
         if (step < 3) {
-            assert_int_equal(row, its);
             tally->early++;
+            tally->early_nearest += row == its;
             tally->early_differs += row != expected;
         } else if (margin > 1e-3) { /* below this margin rounding decides the cell */
             assert_int_equal(row, expected);
@@ -428,17 +344,18 @@ static void check_hough_choices(uint64_t seed, int steps, struct tally *tally)
 
 static void gate_hough_takes_the_plot_of_the_papers_equations(void **state)
 {
-    struct tally tally = {0, 0, 0, 0};
+    struct tally tally = {0};
     (void)state;
 
     for (uint64_t seed = 0; seed < 30; seed++) {
         check_hough_choices(seed, 20, &tally);
     }
-    assert_true(tally.early == 60 && tally.early_differs > 20);
+    /* a plot where the target began may be an echo of clutter, and a farther one is likelier */
+    assert_true(tally.early == 60 && tally.early_nearest > 50 && tally.early_differs > 20);
     assert_true(tally.compared > 500 && tally.other_than_nearest > 100);
 }
 
-/* ---- gate none ------------------------------------------------------------------------------- */
+/* gate none */
 
 static void gate_none_takes_a_random_valid_plot(void **state)
 {
@@ -446,7 +363,7 @@ static void gate_none_takes_a_random_valid_plot(void **state)
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(3, 0, 0), noise = random_start(4, 0, 0);
     struct maintainer *maintainer = start_maintainer(MAINTAIN_NONE, true, &parameters);
-    int counts[PLOTS] = {0};
+    int counts[PLOTS] = {0}, taken = 1;
     (void)state;
 
     for (int step = 1; step <= STEPS; step++) {
@@ -456,10 +373,12 @@ static void gate_none_takes_a_random_valid_plot(void **state)
 
         draw_plots_about(plots, start_m, start_mps, &noise);
         plots[1].y_m = NAN;
-        maintainer_predict(maintainer, scan.time_us);
-        row = maintainer_update_and_get_row(maintainer, &scan, NULL, NAN, 0.9, &random);
-        assert_in_range(row, 0, PLOTS - 1);
-        counts[row]++;
+        row = maintainer_step(maintainer, &scan, NULL, NAN, &random);
+        if (taken >= 3) { /* before, only a plot in the gate is taken */
+            assert_in_range(row, 0, PLOTS - 1);
+            counts[row]++;
+        }
+        taken += row >= 0;
     }
     for (int i = 0; i < PLOTS; i++) { /* within four standard deviations */
         assert_near(counts[i], i == 1 ? 0.0 : STEPS / 4.0,
@@ -468,14 +387,14 @@ static void gate_none_takes_a_random_valid_plot(void **state)
     maintainer_free(maintainer);
 }
 
-/* ---- scans without a valid plot; plots' own times -------------------------------------------- */
+/* scans without a valid plot; plots' own times */
 
 static void check_coasting_is_straight(enum maintainer_gate gate)
 {
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(5, 0, 0);
     struct maintainer *maintainer = start_maintainer(gate, true, &parameters);
-    struct maintainer_estimate estimate;
+    struct rho_track_report predicted;
     struct rho_plot bad = plot_at(start_m, start_mps);
     double where_m[3];
 
@@ -483,17 +402,15 @@ static void check_coasting_is_straight(enum maintainer_gate gate)
     for (int step = 1; step <= 40; step++) {
         struct rho_scan scan = scan_of(step, &bad, step % 2 ? 0 : 1, ALL);
 
-        maintainer_predict(maintainer, scan.time_us);
-        maintainer_predicted_place(maintainer, where_m);
-        assert_int_equal(maintainer_update_and_get_row(maintainer, &scan, NULL, NAN, 0.9, &random),
-                         -1);
-        maintainer_estimate(maintainer, &estimate);
+        maintainer_predict(maintainer, scan.time_us, &predicted, where_m);
+        assert_int_equal(maintainer_step(maintainer, &scan, NULL, NAN, &random), -1);
         for (int k = 0; k < 3; k++) {
             assert_near(where_m[k], start_m[k] + DT_S * step * start_mps[k], 0.01);
-            assert_near(estimate.kalman.state[k], where_m[k], 1e-3);
+            assert_near(predicted.state[k], where_m[k], 1e-3);
+            assert_near(maintainer_report(maintainer)->state[k], where_m[k], 1e-3);
         }
     }
-    assert_int_equal(maintainer_num_filter_refusals(maintainer), 0);
+    assert_int_equal(maintainer_refusals(maintainer), 0);
     maintainer_free(maintainer);
 }
 
@@ -511,7 +428,6 @@ static void plots_update_the_track_at_their_own_times(void **state)
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(6, 0, 0);
     struct maintainer *maintainer;
-    struct maintainer_estimate estimate;
     (void)state;
 
     maintainer = start_maintainer(MAINTAIN_NEAREST, true, &parameters);
@@ -526,12 +442,10 @@ static void plots_update_the_track_at_their_own_times(void **state)
         }
         plot = plot_at(place_m, start_mps);
         plot.offset_us = offset_us;
-        maintainer_predict(maintainer, scan.time_us);
-        assert_near(maintainer_nis_per_dimension(maintainer, &plot, ALL), 0.0, 1e-3);
-        assert_int_equal(maintainer_update_and_get_row(maintainer, &scan, NULL, NAN, 0.9, NULL), 0);
-        maintainer_estimate(maintainer, &estimate);
+        assert_int_equal(maintainer_step(maintainer, &scan, NULL, NAN, NULL), 0);
         for (int k = 0; k < 3; k++) {
-            assert_near(estimate.kalman.state[k], start_m[k] + step * start_mps[k], 0.05);
+            assert_near(maintainer_report(maintainer)->state[k], start_m[k] + step * start_mps[k],
+                        0.05);
         }
     }
     maintainer_free(maintainer);
@@ -542,31 +456,96 @@ static void a_track_starts_from_plots_without_velocity(void **state)
 {
     struct parameters parameters = parameters_at_default();
     struct maintainer *maintainer = maintainer_new(MAINTAIN_NEAREST, true, &parameters);
-    struct maintainer_estimate estimate;
-    struct rho_plot plot = plot_at(start_m, start_mps);
+    const struct rho_track_report *track = maintainer_report(maintainer);
     double place_m[3] = {start_m[0], start_m[1], start_m[2]};
     (void)state;
 
-    maintainer_start(maintainer, 0, &plot, 0, NULL);
-    maintainer_estimate(maintainer, &estimate);
-    assert_near(estimate.kalman.covariance[RHO_AT(3, 3)], 700.0 * 700.0, 1.0);
-    assert_near(estimate.kalman.state[3], 0.0, 0.0);
-    assert_near(estimate.kalman.covariance[RHO_AT(2, 2)], 0.0, 0.0);
-    for (int step = 1; step <= 60; step++) {
+    for (int step = 0; step <= 60; step++) {
+        struct rho_plot plot = plot_at(place_m, start_mps);
         struct rho_scan scan = scan_of(step, &plot, 1, 0);
 
+        assert_int_equal(maintainer_step(maintainer, &scan, NULL, NAN, NULL), 0);
+        if (step == 0) {
+            assert_near(track->covariance[RHO_AT(3, 3)], 700.0 * 700.0, 1.0);
+            assert_near(track->state[3], 0.0, 0.0);
+            assert_near(track->covariance[RHO_AT(2, 2)], 0.0, 0.0);
+        }
         move_place_by_one_scan(place_m);
-        plot = plot_at(place_m, start_mps);
-        maintainer_predict(maintainer, scan.time_us);
-        assert_int_equal(maintainer_update_and_get_row(maintainer, &scan, NULL, NAN, 0.9, NULL), 0);
     }
-    maintainer_estimate(maintainer, &estimate);
-    assert_near(estimate.kalman.state[3], start_mps[0], 1.0);
-    assert_near(estimate.kalman.state[5], 0.0, 0.0);
+    assert_near(track->state[3], start_mps[0], 1.0);
+    assert_near(track->state[5], 0.0, 0.0);
     maintainer_free(maintainer);
 }
 
-/* ---- the density of clutter ------------------------------------------------------------------ */
+/* a track that is never dropped */
+
+/* A target that flies faster than v_max, which ends tracks: hits and misses go on. */
+static void a_track_that_the_tracker_ends_starts_again(void **state)
+{
+    struct parameters parameters = parameters_at_default();
+    struct maintainer *maintainer;
+    const struct rho_track_report *track;
+    (void)state;
+
+    parameters_set_assignment(&parameters, "v_max_mps=60");
+    maintainer = maintainer_new(MAINTAIN_BEST, true, &parameters);
+    track = maintainer_report(maintainer);
+    for (int step = 1; step <= 40; step++) {
+        double place_m[3], velocity_mps[3];
+        struct rho_plot plot;
+        struct rho_scan scan = scan_of(step, &plot, step % 10 ? 1 : 0, ALL);
+
+        for (int k = 0; k < 3; k++) {
+            velocity_mps[k] = 5.0 * start_mps[k];
+            place_m[k] = start_m[k] + DT_S * step * velocity_mps[k];
+        }
+        plot = plot_at(place_m, velocity_mps);
+        assert_int_equal(maintainer_step(maintainer, &scan, NULL, -30.0, NULL), step % 10 ? 0 : -1);
+        assert_int_equal(track->track_id, 1);
+        assert_int_equal(track->hits + track->misses, step);
+        assert_int_equal(track->status, step % 10 ? RHO_TRACK_CONFIRMED : RHO_TRACK_COASTING);
+    }
+    assert_true(maintainer_refusals(maintainer) > 0);
+    maintainer_free(maintainer);
+}
+
+/* The prediction of the hypotheses is what the tracker reports of a scan without a plot. */
+static void a_prediction_is_that_of_the_tracker(void **state)
+{
+    struct parameters parameters = parameters_at_default();
+    struct random random = random_start(12, 0, 0);
+    struct maintainer *maintainer = start_maintainer(MAINTAIN_BEST, true, &parameters);
+    const struct rho_track_report *track = maintainer_report(maintainer);
+    double place_m[3] = {start_m[0], start_m[1], start_m[2]};
+    int many = 0;
+    (void)state;
+
+    for (int step = 1; step <= 60; step++) {
+        struct rho_plot plots[PLOTS];
+        struct rho_scan scan = scan_of(step, plots, step % 3 ? PLOTS : 0, RHO_MEASURES_Z);
+        struct rho_track_report predicted;
+        double where_m[3];
+
+        move_place_by_one_scan(place_m);
+        draw_plots_about(plots, place_m, start_mps, &random);
+        maintainer_predict(maintainer, scan.time_us, &predicted, where_m);
+        many += track->num_hypotheses > 1;
+        (void)maintainer_step(maintainer, &scan, NULL, -20.0, &random);
+        for (int i = 0; i < RHO_KALMAN_STATES && scan.num_plots == 0; i++) {
+            assert_near(predicted.state[i], track->state[i],
+                        0.05 * (i < 3 ? track->sigma_m : track->sigma_mps));
+            assert_near(predicted.covariance[RHO_AT(i, i)], track->covariance[RHO_AT(i, i)],
+                        0.01 * track->covariance[RHO_AT(i, i)]);
+        }
+        for (int k = 0; k < 3; k++) {
+            assert_near(where_m[k], predicted.state[k], 4.0 * predicted.sigma_m);
+        }
+    }
+    assert_true(many > 40);
+    maintainer_free(maintainer);
+}
+
+/* the density of clutter */
 
 #define CLUTTER_MAX 400
 
@@ -818,14 +797,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gate_nearest_takes_the_least_nis_as_in_double_precision),
-        cmocka_unit_test(nis_uses_the_noise_ellipse_and_range_rate_of_a_plot),
-        cmocka_unit_test(the_first_gate_is_widened_by_the_prior_of_the_input),
         cmocka_unit_test(an_acceleration_is_detected_and_reported),
         cmocka_unit_test(gate_hough_takes_the_plot_of_the_papers_equations),
         cmocka_unit_test(gate_none_takes_a_random_valid_plot),
         cmocka_unit_test(scans_without_a_valid_plot_are_coasted_in_a_straight_line),
         cmocka_unit_test(plots_update_the_track_at_their_own_times),
         cmocka_unit_test(a_track_starts_from_plots_without_velocity),
+        cmocka_unit_test(a_track_that_the_tracker_ends_starts_again),
+        cmocka_unit_test(a_prediction_is_that_of_the_tracker),
         cmocka_unit_test(the_estimated_clutter_density_is_the_true_one),
         cmocka_unit_test(the_density_of_a_narrow_strip_is_estimated),
         cmocka_unit_test(the_density_estimate_follows_a_change),
