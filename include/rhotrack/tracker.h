@@ -555,7 +555,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *track
  * made from hits >= 1 scans: from bearings, or by a filter of the caller. sensor_id is one of the
  * sensors of these scans. Errors: NULL, STATE, and those of rho_track_start_estimate; VALUE for a
  * score at which tracks end, a place or speed beyond its limit, and a covariance that is none
- * (variances outside RHO_KALMAN_VARIANCE_MIN .. MAX, not positive definite, or of closed axes).
+ * (variances outside RHO_VARIANCE_MIN .. MAX, not positive definite, or of closed axes).
  * Stack: 2.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,

@@ -13,8 +13,7 @@ static void predict_range_rate(const struct rho_kalman *at, const struct rho_sen
                                int has_z, struct rho_gate_rate *rate)
 {
     float row[RHO_KALMAN_STATES], projected[RHO_KALMAN_STATES];
-    rate->is_known =
-        rho_measurement_predict_range_rate(at->state, sensor, has_z, row, &rate->rate_mps);
+    rate->is_known = rho_measurement_predict_rate(at->state, sensor, has_z, row, &rate->rate_mps);
     if (rate->is_known) {
         rate->variance = rho_linalg_project6(at->covariance, row, projected);
         for (int i = 0; i < 3; i++) {
@@ -29,7 +28,7 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
     gate->predicted = *predicted;
     gate->noise_density = noise_density;
     gate->sensor = sensor;
-    gate->has_z = rho_kalman_has_estimate_on_axis(predicted, 2);
+    gate->has_z = rho_kalman_has_axis(predicted, 2);
     gate->measures = measures;
     if (measures & RHO_MEASURES_RANGE_RATE) {
         predict_range_rate(predicted, sensor, gate->has_z, &gate->rate);
@@ -103,7 +102,7 @@ static int test_plot(const struct rho_gate *gate, const struct rho_kalman *at,
         s[RHO_AT(num, num)] =
             rate->variance + plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
         d[num] = plot->range_rate_mps - rate->rate_mps;
-        result->has_range_rate = rho_measurement_unfold_range_rate(gate->sensor, num + 1, s, d);
+        result->has_range_rate = rho_measurement_unfold_rate(gate->sensor, num + 1, s, d);
         num += result->has_range_rate;
     }
     if (num == 2) {
@@ -137,7 +136,7 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
     if ((gate->measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m;
     }
-    sigma_m *= rho_measurement_sigma_factor_at_least_one(gate->sensor);
+    sigma_m *= rho_measurement_factor_max(gate->sensor);
     if (is_outside_on_axis(gate, 0, plot->x_m, offset_s, sigma_m * sigma_m) ||
         is_outside_on_axis(gate, 1, plot->y_m, offset_s, sigma_m * sigma_m)) {
         return 0;

@@ -55,8 +55,8 @@ static float largest_magnitude(const struct rho_hypotheses *pool, uint16_t slot,
     return most;
 }
 
-void rho_hypotheses_clear_candidates_get_gate_box(struct rho_hypotheses *pool, uint16_t slot,
-                                                  struct rho_hypotheses_box *box)
+void rho_hypotheses_gate_box(struct rho_hypotheses *pool, uint16_t slot,
+                             struct rho_hypotheses_box *box)
 {
     if (!pool || !rho_hypotheses_is_open(pool, slot)) {
         return;

@@ -78,8 +78,8 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_s
     return RHO_OK;
 }
 
-enum rho_status rho_hypotheses_set_model_but_calm_time(struct rho_hypotheses *pool,
-                                                       const struct rho_imm_model *model)
+enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
+                                         const struct rho_imm_model *model)
 {
     if (!pool || !model) {
         return RHO_ERROR_NULL;
@@ -94,7 +94,7 @@ enum rho_status rho_hypotheses_set_model_but_calm_time(struct rho_hypotheses *po
     return RHO_OK;
 }
 
-void rho_hypotheses_set_mean_manoeuvre_interval(struct rho_hypotheses *pool, float calm_s)
+void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s)
 {
     if (pool->model.calm_s > 0.0f && (calm_s < pool->model.calm_s || calm_s > pool->model.calm_s)) {
         pool->model.calm_s = calm_s;
@@ -244,8 +244,7 @@ enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slo
     return predict_slot(pool, slot, time_us, 0);
 }
 
-enum rho_status rho_hypotheses_predict_noiseless(struct rho_hypotheses *pool, uint16_t slot,
-                                                 int64_t time_us)
+enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
 {
     return predict_slot(pool, slot, time_us, 1);
 }

@@ -77,11 +77,11 @@ static float score_by_hypotheses(struct rho_hypotheses *pool, uint16_t slot,
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
         int is_in_gate;
         if (has_rates && at->time_us == offer->time_us) {
-            is_in_gate = rho_imm_score_plot_with_rates(&at->imm, &pool->opened.rates[i],
-                                                       offer->seen, &match);
+            is_in_gate =
+                rho_imm_score_with_rates(&at->imm, &pool->opened.rates[i], offer->seen, &match);
         } else {
             const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, offer->time_us);
-            is_in_gate = imm && rho_imm_predict_rates_and_score_plot(imm, offer->seen, &match);
+            is_in_gate = imm && rho_imm_score_plot(imm, offer->seen, &match);
         }
         if (is_in_gate) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
@@ -118,7 +118,7 @@ static int ensure_gates(struct rho_hypotheses *pool, uint16_t slot, const struct
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         pool->gate_is_usable =
             pool->gate_is_usable && at->time_us == time_us &&
-            rho_imm_prepare_gate_if_uncoupled(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
+            rho_imm_prepare_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
     }
     return pool->gate_is_usable;
 }
@@ -140,9 +140,8 @@ static float score_in_gates(struct rho_hypotheses *pool, uint16_t slot,
             const float last = at->candidates[RHO_HYPOTHESES_CHILDREN - 1].gain_nat;
             least = last < others ? last : others;
         }
-        if (rho_imm_score_position_in_gate(gate, offer->seen->position.place_m,
-                                           least - pd_over_clutter, &log_likelihood,
-                                           &probability)) {
+        if (rho_imm_score_in_gate(gate, offer->seen->position.place_m, least - pd_over_clutter,
+                                  &log_likelihood, &probability)) {
             const float made =
                 list_candidate(at, pd_over_clutter + log_likelihood, probability, offer->row);
             best = made > best ? made : best;
@@ -448,7 +447,7 @@ enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot
         enum rho_status one = RHO_ERROR_VALUE;
         if (move_hypothesis(pool, at, time_us)) {
             /* a plot far from both predictions does not change the models' probabilities */
-            if (!rho_imm_predict_rates_and_score_plot(&at->imm, seen, &match)) {
+            if (!rho_imm_score_plot(&at->imm, seen, &match)) {
                 match.probability = at->imm.probability;
             }
             one = rho_imm_update(&at->imm, &pool->model, seen, &match);

@@ -44,7 +44,7 @@ float rho_angle_difference(float a_rad, float b_rad)
     return rho_angle_wrap(rho_angle_wrap(a_rad) - rho_angle_wrap(b_rad));
 }
 
-int rho_angle_are_sector_ends_valid(float from_rad, float to_rad)
+int rho_angle_is_valid_sector(float from_rad, float to_rad)
 {
     return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
            rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);

@@ -70,14 +70,13 @@ int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan 
     const float *velocity = &track->kalman.state[RHO_VX];
     const float state[6] = {plot->x_m, plot->y_m, plot->z_m, velocity[0], velocity[1], velocity[2]};
     if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_predict_range_rate(
-            state, look->sensor, (scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
+        !rho_measurement_predict_rate(state, look->sensor, (scan->measures & RHO_MEASURES_Z) != 0,
+                                      row, &rate_mps)) {
         return 0;
     }
     rate->sight_line[0] = row[3];
     rate->sight_line[1] = row[4];
-    rate->mps =
-        rho_measurement_range_rate_innovation_mps(look->sensor, plot->range_rate_mps, rate_mps);
+    rate->mps = rho_measurement_innovation_mps(look->sensor, plot->range_rate_mps, rate_mps);
     const float turned_mps = (row[3] * row[1] - row[4] * row[0]) * plot->sigma_cross_m;
     rate->line_turn_m2ps2 = turned_mps * turned_mps;
     rate->variance_m2ps2 =

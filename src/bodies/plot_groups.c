@@ -62,8 +62,8 @@ static int have_range_rates_of_one_body(const struct rho_look *look, const struc
         rho_smaller((side_m < 0.0f ? -side_m : side_m) + one->sigma_cross_m + other->sigma_cross_m,
                     APART_SHARE * longest_body_m(look->tracker));
     const float across_radps = look->tracker->config.v_max_mps / (3.0f * range_m);
-    const float off_mps = rho_measurement_range_rate_innovation_mps(
-        look->sensor, one->range_rate_mps, other->range_rate_mps);
+    const float off_mps =
+        rho_measurement_innovation_mps(look->sensor, one->range_rate_mps, other->range_rate_mps);
     const float variance =
         one->sigma_range_rate_mps * one->sigma_range_rate_mps +
         other->sigma_range_rate_mps * other->sigma_range_rate_mps +
@@ -107,8 +107,7 @@ static struct predicted_body body_outline_and_place_variances(const struct rho_t
     const float turned = outline.body->has_heading ? 3.0f * outline.body->heading_sigma_rad *
                                                          outline.body->heading_sigma_rad
                                                    : 0.0f;
-    outline.place_m2[0] +=
-        rho_body_along_variance_bound_m2(outline.body) + turned * outline.body->across_m2;
+    outline.place_m2[0] += rho_body_along_bound_m2(outline.body) + turned * outline.body->across_m2;
     outline.place_m2[2] += outline.body->across_m2 + turned * outline.body->along_m2;
     return outline;
 }
@@ -315,7 +314,7 @@ static float sum_of_squared_rate_errors(const struct rho_look *look, unsigned gr
     const struct rho_groups *groups = &look->tracker->bodies.groups;
     float sum = 0.0f;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
-        const float off_mps = rho_measurement_range_rate_innovation_mps(
+        const float off_mps = rho_measurement_innovation_mps(
             look->sensor, look->scan->plots[i].range_rate_mps, mean->range_rate_mps);
         sum += off_mps * off_mps;
     }
@@ -340,8 +339,8 @@ static struct rho_plot mean_plot_of_group(const struct rho_look *look, unsigned 
         sum.vx_mps += plot->vx_mps - first->vx_mps;
         sum.vy_mps += plot->vy_mps - first->vy_mps;
         sum.vz_mps += plot->vz_mps - first->vz_mps;
-        sum.range_rate_mps += rho_measurement_range_rate_innovation_mps(
-            look->sensor, plot->range_rate_mps, first->range_rate_mps);
+        sum.range_rate_mps += rho_measurement_innovation_mps(look->sensor, plot->range_rate_mps,
+                                                             first->range_rate_mps);
         n += 1.0f;
         ++*count;
     }
@@ -369,10 +368,9 @@ static void place_on_body_variance_of_group_mean(const struct rho_look *look, un
     const struct rho_groups *groups = &bodies->groups;
     const unsigned owner = groups->owner[groups->first[group]];
     if (owner != RHO_NO_ROW) {
-        const float share =
-            bodies->of[owner].plots < RHO_BODY_NEW_PLOTS
-                ? 1.0f
-                : rho_body_share_of_variance_of_plot_mean(&bodies->of[owner], count);
+        const float share = bodies->of[owner].plots < RHO_BODY_NEW_PLOTS
+                                ? 1.0f
+                                : rho_body_mean_variance_share(&bodies->of[owner], count);
         rho_body_place_covariance(&bodies->of[owner], xx_yx_yy);
         for (int i = 0; i < 3; i++) {
             xx_yx_yy[i] *= share;

@@ -65,7 +65,7 @@ void rho_body_rotate_covariance(const struct rho_body_filter *body, const float 
     axes[2] = s * s * xx - 2.0f * c * s * yx + c * c * yy;
 }
 
-float rho_body_along_variance_bound_m2(const struct rho_body_filter *body)
+float rho_body_along_bound_m2(const struct rho_body_filter *body)
 {
     const float few = FEW_PLOTS / SQUARES_OF_BODY;
     return body->along_m2 + body->prior_m2 * (few / (few + body->along.weight));
@@ -90,7 +90,7 @@ static float floored_along_m2(const struct rho_body_filter *body)
     return rho_larger(body->along_m2, body->prior_m2 / 16.0f);
 }
 
-float rho_body_share_of_variance_of_plot_mean(const struct rho_body_filter *body, unsigned n)
+float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned n)
 {
     const float most = (float)(n > body->most_plots ? n : body->most_plots);
     if (n <= 1) {
@@ -149,7 +149,7 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
      */
     const float usual_m2 = floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
     const float noise_m2 = look->noise_across_m2 / n;
-    const float missed = rho_body_share_of_variance_of_plot_mean(body, look->num_plots);
+    const float missed = rho_body_mean_variance_share(body, look->num_plots);
     const float sum_along_m2 = rho_larger(look->along_m2, n * PLACE_LEAST_M2);
     const float slope = look->cross_m2 / sum_along_m2;
     const float slope_variance = (noise_m2 + missed * usual_m2) / sum_along_m2;

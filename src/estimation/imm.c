@@ -190,9 +190,9 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
     memcpy(imm->state, estimate->state, sizeof estimate->state);
     memcpy(imm->covariance, estimate->covariance, sizeof estimate->covariance);
     for (int axis = 0; axis < RHO_AXES; axis++) {
-        if (rho_kalman_has_estimate_on_axis(estimate, axis)) {
+        if (rho_kalman_has_axis(estimate, axis)) {
             imm->covariance[COVARIANCE_AT(axis, 2, axis, 2)] =
-                model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_KALMAN_VARIANCE_MIN;
+                model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_VARIANCE_MIN;
         }
     }
     for (int axis = 1; axis < RHO_AXES; axis++) {
@@ -302,7 +302,7 @@ static inline void mix_axis_pair(struct axis_pair *steady, struct axis_pair *man
 /* A variance raised by thirty-two units of rounding, as in kalman.c, and to the least; or NaN. */
 static inline float predicted_variance(float variance)
 {
-    return rho_larger(RHO_KALMAN_VARIANCE_MIN, variance * (1.0f + RHO_ROUNDING_UNITS(32)));
+    return rho_larger(RHO_VARIANCE_MIN, variance * (1.0f + RHO_ROUNDING_UNITS(32)));
 }
 
 /*
@@ -417,8 +417,8 @@ static enum rho_status predict_models(struct rho_imm *imm, const struct rho_imm_
         store_axis(kalman->state, kalman->covariance, axis, &at);
         store_axis(imm->state, imm->covariance, axis, &manoeuvre);
         store_accel(imm, axis, &more);
-        is_good &= at.pp + at.vv <= RHO_KALMAN_VARIANCE_MAX;
-        is_good &= manoeuvre.pp + manoeuvre.vv + more.aa <= RHO_KALMAN_VARIANCE_MAX;
+        is_good &= at.pp + at.vv <= RHO_VARIANCE_MAX;
+        is_good &= manoeuvre.pp + manoeuvre.vv + more.aa <= RHO_VARIANCE_MAX;
         state_sum += at.p + at.v + manoeuvre.p + manoeuvre.v + more.a;
     }
     return is_good && rho_is_finite(state_sum) ? RHO_OK : RHO_ERROR_VALUE;

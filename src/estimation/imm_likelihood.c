@@ -137,12 +137,12 @@ static void set_general_score(struct model_view *view, const struct rho_imm_plot
         memcpy(row, view->projected, (size_t)n * sizeof *row);
         memcpy(row + n, view->projected + RHO_AXES, (size_t)n * sizeof *row);
         row[num] = view->rate_variance + rate_noise_variance(seen);
-        d[num++] = rho_measurement_range_rate_innovation_mps(
-            seen->sensor, seen->plot->range_rate_mps, view->expected_mps);
+        d[num++] = rho_measurement_innovation_mps(seen->sensor, seen->plot->range_rate_mps,
+                                                  view->expected_mps);
     }
     /* an ambiguous range rate that cannot be unfolded has the density 1 / span */
     const int is_unclear = match->has_range_rate && view->counts &&
-                           !rho_measurement_unfold_range_rate(seen->sensor, num, s, d);
+                           !rho_measurement_unfold_rate(seen->sensor, num, s, d);
     num -= is_unclear;
     view->counts =
         view->counts && rho_linalg_gated_nis(num, s, d, NIS_COUNTS_MAX, &view->nis, &log_det);
@@ -163,14 +163,13 @@ static inline float range_rate_nis(const struct model_view *view, const struct r
     const float variance = view->rate_variance + rate_noise_variance(seen) - explained;
     float off = seen->plot->range_rate_mps - view->expected_mps;
     *det = variance;
-    if (rho_measurement_has_ambiguous_range_rates(seen->sensor)) {
+    if (rho_measurement_is_ambiguous(seen->sensor)) {
         const float span_mps = seen->sensor->range_rate_span_mps;
-        if (!rho_measurement_can_unfold_range_rate(seen->sensor, variance)) {
+        if (!rho_measurement_can_unfold(seen->sensor, variance)) {
             *det = variance > 0.0f ? span_mps * span_mps * (1.0f / RHO_TWO_PI) : variance;
             return 0.0f;
         }
-        off = expected_off +
-              rho_measurement_range_rate_innovation_mps(seen->sensor, off, expected_off);
+        off = expected_off + rho_measurement_innovation_mps(seen->sensor, off, expected_off);
     }
     off -= expected_off;
     return off * off / variance;
@@ -308,7 +307,7 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
             struct rho_kalman at;
             struct rho_kalman_row rate;
             load_kinematics(&at, states[i], covariances[i]);
-            if (rho_kalman_linearise_range_rate(&at, sensor, 0.0f, FLT_MIN, &rate)) {
+            if (rho_kalman_linearise_rate(&at, sensor, 0.0f, FLT_MIN, &rate)) {
                 rates->expected_mps[i] = -rate.innovation;
                 rates->variance[i] =
                     rate.variance + rho_linalg_project6(at.covariance, rate.row, projected);
@@ -334,14 +333,14 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
     }
 }
 
-int rho_imm_predict_rates_and_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
-                                         struct rho_imm_match *match)
+int rho_imm_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                       struct rho_imm_match *match)
 {
     struct rho_imm_rates rates = {.expected_mps = {0.0f, 0.0f}};
     if (seen->measures & RHO_MEASURES_RANGE_RATE) {
         rho_imm_predict_range_rates(&rates, imm, seen->sensor);
     }
-    return rho_imm_score_plot_with_rates(imm, &rates, seen, match);
+    return rho_imm_score_with_rates(imm, &rates, seen, match);
 }
 
 /* Sets the view on the steady model (0) or the manoeuvring one (1), with its range rate. */
@@ -357,8 +356,8 @@ static inline void view_model(struct model_view *view, int model, const struct r
     }
 }
 
-int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_imm_rates *rates,
-                                  const struct rho_imm_plot *seen, struct rho_imm_match *match)
+int rho_imm_score_with_rates(const struct rho_imm *imm, const struct rho_imm_rates *rates,
+                             const struct rho_imm_plot *seen, struct rho_imm_match *match)
 {
     const float share[2] = {1.0f - imm->probability, imm->probability};
     const int is_coupled = imm->is_coupled || !seen->position.is_isotropic;
@@ -417,8 +416,8 @@ static void fill_gate_of_model(struct rho_imm_gate *gate, int model, const float
         rho_log(share * rho_inverse_sqrt(det)) - 0.5f * RHO_LOG_TWO_PI * (float)gate->num_axes;
 }
 
-int rho_imm_prepare_gate_if_uncoupled(struct rho_imm_gate *gate, const struct rho_imm *imm,
-                                      float variance_m2, int has_z)
+int rho_imm_prepare_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
+                         int has_z)
 {
     if (imm->is_coupled) {
         return 0;
@@ -454,9 +453,8 @@ static inline float log_density_of_model(float log_factor, float half)
  * Scores a position of the gate's noise. ln(e^s + e^m) lies between max(s, m) and max(s, m) + ln 2
  * (rounded up): log_likelihood_to_exceed is compared with the upper bound.
  */
-int rho_imm_score_position_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
-                                   float log_likelihood_to_exceed, float *log_likelihood,
-                                   float *probability)
+int rho_imm_score_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
+                          float log_likelihood_to_exceed, float *log_likelihood, float *probability)
 {
     const float to_s = half_nis(gate->centre_m[0], gate->half_inverse[0], place_m);
     const float to_m = half_nis(gate->centre_m[1], gate->half_inverse[1], place_m);

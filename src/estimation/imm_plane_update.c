@@ -132,8 +132,8 @@ enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
 
 static inline void raise_to_floor(float *variance)
 {
-    if (*variance < RHO_KALMAN_VARIANCE_MIN) {
-        *variance = RHO_KALMAN_VARIANCE_MIN;
+    if (*variance < RHO_VARIANCE_MIN) {
+        *variance = RHO_VARIANCE_MIN;
     }
 }
 

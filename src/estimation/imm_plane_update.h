@@ -39,7 +39,7 @@ float rho_imm_plane_project_rate(int num_states, const float *restrict p, const 
 
 /*
  * Updates an estimate with a scalar whose covariances `spread` and variance `predicted` a
- * projection gave. The noise variance is RHO_KALMAN_VARIANCE_MIN at least. Errors: SINGULAR, VALUE,
+ * projection gave. The noise variance is RHO_VARIANCE_MIN at least. Errors: SINGULAR, VALUE,
  * as rho_linalg_update_row; then the estimate must not be used any more.
  */
 enum rho_status rho_imm_plane_update(int num_states, float *restrict state,

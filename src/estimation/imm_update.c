@@ -154,8 +154,8 @@ static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
         load_kinematics(&manoeuvre, imm->state, imm->covariance);
         status = rho_kalman_update_range_rate(&imm->steady, seen->sensor, rate_mps, variance);
         if (status == RHO_OK &&
-            rho_kalman_linearise_range_rate(&manoeuvre, seen->sensor, rate_mps, variance, &rate) &&
-            rho_kalman_can_unfold_range_rate(&manoeuvre, seen->sensor, &rate)) {
+            rho_kalman_linearise_rate(&manoeuvre, seen->sensor, rate_mps, variance, &rate) &&
+            rho_kalman_can_unfold(&manoeuvre, seen->sensor, &rate)) {
             status =
                 rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance,
                                       RHO_KALMAN_STATES, rate.row, rate.innovation, rate.variance);
@@ -197,12 +197,12 @@ static enum rho_status update_plane_rate(int num_states, float *state, float *co
     const float predicted = rho_imm_plane_project_rate(num_states, covariance, rate.row, spread);
     const float variance = rho_kalman_floored(sigma_mps * sigma_mps) + rate.nonlinearity;
     float off_mps = seen->plot->range_rate_mps - rate.expected_mps;
-    if (rho_measurement_has_ambiguous_range_rates(seen->sensor)) {
-        if (!rho_measurement_can_unfold_range_rate(seen->sensor, predicted + variance)) {
+    if (rho_measurement_is_ambiguous(seen->sensor)) {
+        if (!rho_measurement_can_unfold(seen->sensor, predicted + variance)) {
             return RHO_OK;
         }
-        off_mps = rho_measurement_range_rate_innovation_mps(
-            seen->sensor, seen->plot->range_rate_mps, rate.expected_mps);
+        off_mps = rho_measurement_innovation_mps(seen->sensor, seen->plot->range_rate_mps,
+                                                 rate.expected_mps);
     }
     return rho_imm_plane_update(num_states, state, covariance, spread, predicted, off_mps,
                                 variance);

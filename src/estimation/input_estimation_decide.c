@@ -108,7 +108,7 @@ static uint32_t end_correlated_inputs(struct rho_input *input, float nis_limit,
     return left;
 }
 
-void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_input_config *config)
+void rho_input_decide(struct rho_input *input, const struct rho_input_config *config)
 {
     if (input == NULL || config == NULL || !config->is_estimated) {
         return;

@@ -12,11 +12,11 @@
 static enum rho_status update_axis(struct rho_input *input, const struct rho_input_config *config,
                                    int axis, float place_m, float variance)
 {
-    if (!rho_kalman_has_estimate_on_axis(&input->bare, axis)) {
+    if (!rho_kalman_has_axis(&input->bare, axis)) {
         return rho_kalman_open_axis(&input->bare, axis, place_m, variance,
                                     config->velocity_variance);
     }
-    return rho_input_update_filter_by_element(input, config, axis, place_m, variance);
+    return rho_input_update_element(input, config, axis, place_m, variance);
 }
 
 /*
@@ -33,7 +33,7 @@ static enum rho_status update_in_noise_frame(struct rho_input *input,
     const float rows[NUM_AXES][NUM_STATES] = {
         {ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
     enum rho_status status = RHO_OK;
-    if (!rho_kalman_has_estimate_on_axis(&input->bare, RHO_X)) {
+    if (!rho_kalman_has_axis(&input->bare, RHO_X)) {
         return rho_kalman_update_position(&input->bare, seen, config->velocity_variance);
     }
     for (int k = 0; k < num_axes && status == RHO_OK; k++) {
@@ -41,8 +41,7 @@ static enum rho_status update_in_noise_frame(struct rho_input *input,
         for (int i = 0; i < num_axes; i++) {
             innovation_m += rows[k][i] * (seen->place_m[i] - input->bare.state[i]);
         }
-        status = rho_input_update_filter_by_row(input, config, rows[k], innovation_m,
-                                                seen->variance_m2[k]);
+        status = rho_input_update_row(input, config, rows[k], innovation_m, seen->variance_m2[k]);
     }
     return status;
 }
@@ -52,7 +51,7 @@ static enum rho_status update_position(struct rho_input *input,
                                        const struct rho_measurement *seen)
 {
     const int num_axes = seen->has_z ? NUM_AXES : 2;
-    const int is_open = rho_kalman_has_estimate_on_axis(&input->bare, RHO_X);
+    const int is_open = rho_kalman_has_axis(&input->bare, RHO_X);
     enum rho_status status = RHO_OK;
     if (!rho_are_finite(seen->place_m, (size_t)num_axes)) {
         return RHO_ERROR_VALUE;
@@ -63,10 +62,10 @@ static enum rho_status update_position(struct rho_input *input,
         }
         return status;
     }
-    if (is_open != rho_kalman_has_estimate_on_axis(&input->bare, RHO_Y)) {
+    if (is_open != rho_kalman_has_axis(&input->bare, RHO_Y)) {
         return RHO_ERROR_VALUE;
     }
-    if (!seen->has_z || is_open == rho_kalman_has_estimate_on_axis(&input->bare, RHO_Z)) {
+    if (!seen->has_z || is_open == rho_kalman_has_axis(&input->bare, RHO_Z)) {
         return update_in_noise_frame(input, config, seen, num_axes);
     }
     /* only one of (x, y) and z is open: z is updated apart, as rho_kalman_update_position does */
@@ -122,14 +121,14 @@ enum rho_status rho_input_update_range_rate(struct rho_input *input,
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
     }
-    rho_input_get_corrected_estimate(input, &corrected);
-    if (!rho_kalman_linearise_range_rate(&corrected, sensor, rate_mps, variance, &seen) ||
-        !rho_kalman_can_unfold_range_rate(&corrected, sensor, &seen)) {
+    rho_input_estimate(input, &corrected);
+    if (!rho_kalman_linearise_rate(&corrected, sensor, rate_mps, variance, &seen) ||
+        !rho_kalman_can_unfold(&corrected, sensor, &seen)) {
         return RHO_OK;
     }
     const float innovation_mps =
         bare_filter_innovation(input, &corrected, seen.row, seen.innovation);
-    return rho_input_update_filter_by_row(input, config, seen.row, innovation_mps, seen.variance);
+    return rho_input_update_row(input, config, seen.row, innovation_mps, seen.variance);
 }
 
 enum rho_status rho_input_update_bearing(struct rho_input *input,
@@ -144,10 +143,10 @@ enum rho_status rho_input_update_bearing(struct rho_input *input,
     if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
-    rho_input_get_corrected_estimate(input, &corrected);
+    rho_input_estimate(input, &corrected);
     if (!rho_kalman_linearise_bearing(&corrected, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
         return RHO_OK;
     }
     const float innovation_m = bare_filter_innovation(input, &corrected, seen.row, seen.off_m);
-    return rho_input_update_filter_by_row(input, config, seen.row, innovation_m, seen.variance_m2);
+    return rho_input_update_row(input, config, seen.row, innovation_m, seen.variance_m2);
 }

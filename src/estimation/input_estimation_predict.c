@@ -50,10 +50,9 @@ int rho_input_is_usable(const struct rho_input_config *config)
            rho_is_within(config->noise_density, 0.0f, FLT_MAX) &&
            rho_is_within(config->noise_m, 0.0f, 1.0e6f) &&
            rho_is_within(config->noise_mps, 0.0f, 1.0e6f) &&
-           rho_is_within(config->velocity_variance, RHO_KALMAN_VARIANCE_MIN,
-                         RHO_KALMAN_VARIANCE_MAX) &&
-           rho_is_within(config->initial_variance, 0.0f, RHO_KALMAN_VARIANCE_MAX) &&
-           !(config->initial_variance > 0.0f && config->initial_variance < RHO_KALMAN_VARIANCE_MIN);
+           rho_is_within(config->velocity_variance, RHO_VARIANCE_MIN, RHO_VARIANCE_MAX) &&
+           rho_is_within(config->initial_variance, 0.0f, RHO_VARIANCE_MAX) &&
+           !(config->initial_variance > 0.0f && config->initial_variance < RHO_VARIANCE_MIN);
 }
 
 /*
@@ -106,13 +105,13 @@ static void add_input_effects(struct rho_kalman *estimate, const struct rho_inpu
     }
 }
 
-void rho_input_get_corrected_estimate(const struct rho_input *input, struct rho_kalman *estimate)
+void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
     add_input_effects(estimate, input, input->present);
 }
 
-void rho_input_estimate_with_all_inputs(const struct rho_input *input, struct rho_kalman *estimate)
+void rho_input_gate_estimate(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
     add_input_effects(estimate, input, INPUT_ALL_PRESENT);
@@ -203,12 +202,12 @@ static enum rho_status predict_inputs(struct rho_input *input,
      * variances of the corrected estimate need no check.
      */
     if (!input->present ||
-        size2 * (v[RHO_XX] + v[RHO_YY] + v[RHO_ZZ]) <= 1.0e-3f * RHO_KALMAN_VARIANCE_MAX) {
+        size2 * (v[RHO_XX] + v[RHO_YY] + v[RHO_ZZ]) <= 1.0e-3f * RHO_VARIANCE_MAX) {
         return RHO_OK;
     }
-    rho_input_get_corrected_estimate(input, &estimate);
+    rho_input_estimate(input, &estimate);
     for (int i = 0; i < NUM_STATES; i++) {
-        if (!(estimate.covariance[RHO_AT(i, i)] <= RHO_KALMAN_VARIANCE_MAX)) {
+        if (!(estimate.covariance[RHO_AT(i, i)] <= RHO_VARIANCE_MAX)) {
             return RHO_ERROR_VALUE;
         }
     }

@@ -13,7 +13,7 @@
  * Limit of (s / S)^2 P_ii, s the sensitivity of element i: keeps the change of all sensitivities
  * within SQUARE_MAX, as a covariance with element i is at most sqrt(P_ii) times the largest sigma.
  */
-#define MOVED2_MAX (SQUARE_MAX / RHO_KALMAN_VARIANCE_MAX)
+#define MOVED2_MAX (SQUARE_MAX / RHO_VARIANCE_MAX)
 
 /* A scalar measurement with row h: P h, h P h^T + R, and its derivatives H N by the inputs. */
 struct scalar_measurement {
@@ -125,9 +125,9 @@ static enum rho_status update_axis_with_own_input(struct rho_input *input, int a
     return status;
 }
 
-enum rho_status rho_input_update_filter_by_element(struct rho_input *input,
-                                                   const struct rho_input_config *config,
-                                                   int element, float value, float variance)
+enum rho_status rho_input_update_element(struct rho_input *input,
+                                         const struct rho_input_config *config, int element,
+                                         float value, float variance)
 {
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
@@ -162,9 +162,8 @@ enum rho_status rho_input_update_filter_by_element(struct rho_input *input,
     return update_all(input, &scalar);
 }
 
-enum rho_status rho_input_update_filter_by_row(struct rho_input *input,
-                                               const struct rho_input_config *config,
-                                               const float row[6], float innovation, float variance)
+enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,
+                                     const float row[6], float innovation, float variance)
 {
     if (input == NULL || config == NULL || row == NULL) {
         return RHO_ERROR_NULL;

@@ -18,7 +18,7 @@ struct axis_prediction {
 
 static int is_valid_variance(float v)
 {
-    return v >= RHO_KALMAN_VARIANCE_MIN && v <= RHO_KALMAN_VARIANCE_MAX;
+    return v >= RHO_VARIANCE_MIN && v <= RHO_VARIANCE_MAX;
 }
 
 /*
@@ -43,14 +43,14 @@ static inline int predict_axis(struct axis_prediction *next, const struct rho_ka
                             (position + moved_twice) * RHO_ROUNDING_UNITS(32) +
                             q * dt_s * dt_s * (1.0f / 3.0f);
     /* zero marks a closed axis and stays; a negative value stays, too, and is refused */
-    const int is_low = predicted >= 0.0f && predicted < RHO_KALMAN_VARIANCE_MIN && position > 0.0f;
+    const int is_low = predicted >= 0.0f && predicted < RHO_VARIANCE_MIN && position > 0.0f;
     next->position_m = kalman->state[axis] + dt_s * kalman->state[RHO_AXES + axis];
-    next->position_variance = is_low ? RHO_KALMAN_VARIANCE_MIN : predicted;
+    next->position_variance = is_low ? RHO_VARIANCE_MIN : predicted;
     next->velocity_variance = velocity + q;
     next->mixed = mixed + moved + 0.5f * dt_s * q;
     return rho_is_finite(next->position_m) && next->position_variance >= 0.0f &&
-           next->position_variance <= RHO_KALMAN_VARIANCE_MAX && next->velocity_variance >= 0.0f &&
-           next->velocity_variance <= RHO_KALMAN_VARIANCE_MAX;
+           next->position_variance <= RHO_VARIANCE_MAX && next->velocity_variance >= 0.0f &&
+           next->velocity_variance <= RHO_VARIANCE_MAX;
 }
 
 void rho_kalman_init(struct rho_kalman *kalman)
@@ -87,7 +87,7 @@ void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance)
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         for (int j = 0; j <= i; j++) {
             kalman->covariance[RHO_AT(i, j)] =
-                i == j && rho_kalman_has_estimate_on_axis(kalman, i % 3) ? variance : 0.0f;
+                i == j && rho_kalman_has_axis(kalman, i % 3) ? variance : 0.0f;
         }
     }
 }
@@ -142,7 +142,7 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
 /* True where the sum of a variance and `by` is within the limit; false for NaN. */
 static int can_add_variance(float variance, float added)
 {
-    return variance + added <= RHO_KALMAN_VARIANCE_MAX;
+    return variance + added <= RHO_VARIANCE_MAX;
 }
 
 enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance,
@@ -161,7 +161,7 @@ enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_v
         }
     }
     for (int axis = 0; axis < RHO_AXES; ++axis) {
-        if (rho_kalman_has_estimate_on_axis(kalman, axis)) {
+        if (rho_kalman_has_axis(kalman, axis)) {
             kalman->covariance[DIAGONAL(axis)] += position_variance;
             kalman->covariance[DIAGONAL(RHO_AXES + axis)] += velocity_variance;
         }
@@ -232,7 +232,7 @@ static void rotate_estimate(struct rho_kalman *kalman, int a, int b, float c, fl
 static enum rho_status update_axis(struct rho_kalman *kalman, int axis, float place_m,
                                    float variance, float velocity_variance)
 {
-    if (!rho_kalman_has_estimate_on_axis(kalman, axis)) {
+    if (!rho_kalman_has_axis(kalman, axis)) {
         return rho_kalman_open_axis(kalman, axis, place_m, variance, velocity_variance);
     }
     return rho_kalman_update(kalman, axis, place_m, variance, NULL);
@@ -293,11 +293,11 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
         return update_axes(kalman, num_axes, measurement->place_m, measurement->variance_m2,
                            velocity_variance);
     }
-    const int is_open = rho_kalman_has_estimate_on_axis(kalman, RHO_X);
-    if (is_open != rho_kalman_has_estimate_on_axis(kalman, RHO_Y)) {
+    const int is_open = rho_kalman_has_axis(kalman, RHO_X);
+    if (is_open != rho_kalman_has_axis(kalman, RHO_Y)) {
         return RHO_ERROR_VALUE;
     }
-    if (!measurement->has_z || is_open == rho_kalman_has_estimate_on_axis(kalman, RHO_Z)) {
+    if (!measurement->has_z || is_open == rho_kalman_has_axis(kalman, RHO_Z)) {
         return update_in_noise_frame(kalman, num_axes, measurement, velocity_variance);
     }
     /* only one of (x, y) and z is open: z is updated apart, with its own variance */
@@ -312,17 +312,15 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
                             : status;
 }
 
-int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
-                                    const struct rho_sensor *sensor, float rate_mps, float variance,
-                                    struct rho_kalman_row *seen)
+int rho_kalman_linearise_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                              float rate_mps, float variance, struct rho_kalman_row *seen)
 {
     const float place_m[RHO_AXES] = {sensor ? sensor->x_m : 0.0f, sensor ? sensor->y_m : 0.0f,
                                      sensor ? sensor->z_m : 0.0f};
     const float *state = kalman->state;
     float predicted_mps, range2_m2 = 0.0f, spread_m2 = 0.0f, speed2 = 0.0f;
-    if (!rho_measurement_predict_range_rate(state, sensor,
-                                            rho_kalman_has_estimate_on_axis(kalman, RHO_Z),
-                                            seen->row, &predicted_mps)) {
+    if (!rho_measurement_predict_rate(state, sensor, rho_kalman_has_axis(kalman, RHO_Z), seen->row,
+                                      &predicted_mps)) {
         return 0;
     }
     /*
@@ -331,7 +329,7 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
      * rate by up to (sigma / range)^2 / 2 times the speed.
      */
     for (int axis = 0; axis < RHO_AXES; axis++) {
-        if (rho_kalman_has_estimate_on_axis(kalman, axis)) {
+        if (rho_kalman_has_axis(kalman, axis)) {
             const float off_m = state[axis] - place_m[axis];
             range2_m2 += off_m * off_m;
             spread_m2 += kalman->covariance[DIAGONAL(axis)];
@@ -339,7 +337,7 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
         }
     }
     const float share = spread_m2 / range2_m2, nonlinearity = 0.5f * speed2 * share * share;
-    seen->innovation = rho_measurement_range_rate_innovation_mps(sensor, rate_mps, predicted_mps);
+    seen->innovation = rho_measurement_innovation_mps(sensor, rate_mps, predicted_mps);
     seen->variance = variance;
     if (variance > 0.0f && nonlinearity <= FLT_MAX) { /* else the update refuses the variance */
         seen->variance += nonlinearity;
@@ -347,13 +345,12 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
     return 1;
 }
 
-int rho_kalman_can_unfold_range_rate(const struct rho_kalman *kalman,
-                                     const struct rho_sensor *sensor,
-                                     const struct rho_kalman_row *seen)
+int rho_kalman_can_unfold(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                          const struct rho_kalman_row *seen)
 {
     float projected[RHO_KALMAN_STATES];
-    return !rho_measurement_has_ambiguous_range_rates(sensor) ||
-           rho_measurement_can_unfold_range_rate(
+    return !rho_measurement_is_ambiguous(sensor) ||
+           rho_measurement_can_unfold(
                sensor,
                rho_linalg_project6(kalman->covariance, seen->row, projected) + seen->variance);
 }
@@ -366,8 +363,8 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_kalman_linearise_range_rate(kalman, sensor, rate_mps, variance, &seen) ||
-        !rho_kalman_can_unfold_range_rate(kalman, sensor, &seen)) {
+    if (!rho_kalman_linearise_rate(kalman, sensor, rate_mps, variance, &seen) ||
+        !rho_kalman_can_unfold(kalman, sensor, &seen)) {
         return RHO_OK;
     }
     return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance, NULL);
@@ -377,8 +374,8 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
                                  float bearing_rad, float sigma_rad,
                                  struct rho_kalman_bearing *seen)
 {
-    if (!rho_measurement_bearing_innovation(kalman->state, x_m, y_m, bearing_rad, seen->row,
-                                            &seen->off_m, &seen->range_m)) {
+    if (!rho_measurement_bearing_row(kalman->state, x_m, y_m, bearing_rad, seen->row, &seen->off_m,
+                                     &seen->range_m)) {
         return 0;
     }
     /*
@@ -414,7 +411,7 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
     return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2, NULL);
 }
 
-int rho_kalman_has_estimate_on_axis(const struct rho_kalman *kalman, int axis)
+int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis)
 {
     return kalman != NULL && axis >= 0 && axis < RHO_AXES &&
            kalman->covariance[DIAGONAL(axis)] > 0.0f;

@@ -71,8 +71,8 @@ static float ray_distance_m(const struct rho_crossing_base *base, float bearing_
     return without_sign(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
 }
 
-float rho_crossing_angle_or_minus_pi_rad(const struct rho_crossing_base *base, float bearing_a_rad,
-                                         float bearing_b_rad)
+float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing_a_rad,
+                             float bearing_b_rad)
 {
     struct base_angles angles = crossing_angles(base, bearing_a_rad, bearing_b_rad);
     return angles.are_on_one_side ? angles.delta_rad : -RHO_PI;

@@ -94,12 +94,12 @@ static int predict_notched_range_rate(const struct rho_sensor *sensor, const flo
 {
     float projected[6];
     if (!rho_notch_sensor_has_notch(sensor) ||
-        !rho_measurement_predict_range_rate(state, sensor, covariance[RHO_AT(2, 2)] > 0.0f,
-                                            view->row, &view->mean)) {
+        !rho_measurement_predict_rate(state, sensor, covariance[RHO_AT(2, 2)] > 0.0f, view->row,
+                                      &view->mean)) {
         return 0;
     }
     view->variance = rho_linalg_project6(covariance, view->row, projected);
-    return rho_is_within(view->variance, RHO_KALMAN_VARIANCE_MIN, RHO_KALMAN_VARIANCE_MAX);
+    return rho_is_within(view->variance, RHO_VARIANCE_MIN, RHO_VARIANCE_MAX);
 }
 
 float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *state,
@@ -136,7 +136,7 @@ static void impose_component_moments(const struct component *view, float mean_sh
         float *own = &covariance[RHO_AT(i, i)];
         if (*own > 0.0f) {
             *own = *own * RHO_ROUNDING_ALLOWANCE - projected[i] * projected[i] * taken;
-            *own = *own > RHO_KALMAN_VARIANCE_MIN ? *own : RHO_KALMAN_VARIANCE_MIN;
+            *own = *own > RHO_VARIANCE_MIN ? *own : RHO_VARIANCE_MIN;
         }
     }
 }
@@ -153,7 +153,7 @@ static void impose_standing(const struct component *rate, float notch_mps, int n
     across.mean = across.row[3] * state[3] + across.row[4] * state[4];
     across.variance = rho_linalg_project6(covariance, across.row, projected);
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * notch_mps;
-    if (across.variance > RHO_KALMAN_VARIANCE_MIN &&
+    if (across.variance > RHO_VARIANCE_MIN &&
         across.mean * across.mean <
             RHO_NOTCH_STAND_WIDTHS * RHO_NOTCH_STAND_WIDTHS * across.variance +
                 most_mps * most_mps) {

@@ -49,7 +49,7 @@ int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures
             is_valid_sigma(plot->sigma_mps));
 }
 
-int rho_measurement_has_valid_place_and_biases(const struct rho_sensor *sensor)
+int rho_measurement_is_valid_site(const struct rho_sensor *sensor)
 {
     const float span_mps = sensor->range_rate_span_mps; /* 0: range rates are not ambiguous */
     return (rho_is_within(span_mps, 0.0f, 0.0f) ||
@@ -97,7 +97,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
                     is_valid_sigma_rad(polar->sigma_elevation_rad))) ||
         (has_rate &&
          !(is_valid_speed(polar->range_rate_mps) && is_valid_sigma(polar->sigma_range_rate_mps))) ||
-        (sensor && !rho_measurement_has_valid_place_and_biases(sensor))) {
+        (sensor && !rho_measurement_is_valid_site(sensor))) {
         return RHO_ERROR_VALUE;
     }
     const float range_m = polar->range_m - (sensor ? sensor->range_bias_m : 0.0f);
@@ -167,13 +167,13 @@ struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *
     return factors;
 }
 
-float rho_measurement_sigma_factor_at_least_one(const struct rho_sensor *sensor)
+float rho_measurement_factor_max(const struct rho_sensor *sensor)
 {
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     return rho_larger(rho_larger(factors.range, factors.cross), 1.0f);
 }
 
-int rho_measurement_is_valid_bearing(const struct rho_bearing *bearing)
+int rho_bearing_is_valid(const struct rho_bearing *bearing)
 {
     return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
            rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
@@ -253,8 +253,8 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
     covariance[5] = se * se * variance[0] + ce * ce * variance[2];
 }
 
-int rho_measurement_predict_range_rate(const float state[6], const struct rho_sensor *sensor,
-                                       int use_z, float row[6], float *rate_mps)
+int rho_measurement_predict_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
+                                 float row[6], float *rate_mps)
 {
     float along[3] = {state[0] - (sensor ? sensor->x_m : 0.0f),
                       state[1] - (sensor ? sensor->y_m : 0.0f),
@@ -277,11 +277,11 @@ int rho_measurement_predict_range_rate(const float state[6], const struct rho_se
     return 1;
 }
 
-float rho_measurement_range_rate_innovation_mps(const struct rho_sensor *sensor, float measured_mps,
-                                                float expected_mps)
+float rho_measurement_innovation_mps(const struct rho_sensor *sensor, float measured_mps,
+                                     float expected_mps)
 {
     float error_mps = measured_mps - expected_mps;
-    if (!rho_measurement_has_ambiguous_range_rates(sensor)) {
+    if (!rho_measurement_is_ambiguous(sensor)) {
         return error_mps;
     }
     float turns = error_mps / sensor->range_rate_span_mps;
@@ -292,9 +292,9 @@ float rho_measurement_range_rate_innovation_mps(const struct rho_sensor *sensor,
     return error_mps - (float)whole * sensor->range_rate_span_mps;
 }
 
-int rho_measurement_can_unfold_range_rate(const struct rho_sensor *sensor, float variance)
+int rho_measurement_can_unfold(const struct rho_sensor *sensor, float variance)
 {
-    if (!rho_measurement_has_ambiguous_range_rates(sensor)) {
+    if (!rho_measurement_is_ambiguous(sensor)) {
         return 1;
     }
     float half_mps = 0.5f * sensor->range_rate_span_mps;
@@ -322,14 +322,14 @@ static int cholesky_in_place(int num, float *a)
     return 1;
 }
 
-int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
-                                      const float *covariance, float *innovation)
+int rho_measurement_unfold_rate(const struct rho_sensor *sensor, int num, const float *covariance,
+                                float *innovation)
 {
     enum { INNOVATIONS_MAX = 3 + 3 + 1 }; /* three of place, three of velocity, one range rate */
     float factor[RHO_TRIANGLE(INNOVATIONS_MAX)] = {0.0f}, whitened[INNOVATIONS_MAX] = {0.0f};
     float expected_mps = 0.0f;
     const int last = num - 1;
-    if (!rho_measurement_has_ambiguous_range_rates(sensor)) {
+    if (!rho_measurement_is_ambiguous(sensor)) {
         return 1;
     }
     for (int k = 0; k < RHO_TRIANGLE(num); k++) {
@@ -346,26 +346,25 @@ int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
         expected_mps += factor[RHO_AT(last, i)] * whitened[i];
     }
     const float sd_mps = factor[RHO_AT(last, last)];
-    if (!rho_measurement_can_unfold_range_rate(sensor, sd_mps * sd_mps)) {
+    if (!rho_measurement_can_unfold(sensor, sd_mps * sd_mps)) {
         return 0;
     }
-    innovation[last] = expected_mps + rho_measurement_range_rate_innovation_mps(
-                                          sensor, innovation[last], expected_mps);
+    innovation[last] =
+        expected_mps + rho_measurement_innovation_mps(sensor, innovation[last], expected_mps);
     return 1;
 }
 
-float rho_measurement_log_num_aliases(const struct rho_sensor *sensor, float v_max_mps)
+float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps)
 {
-    if (!rho_measurement_has_ambiguous_range_rates(sensor) ||
+    if (!rho_measurement_is_ambiguous(sensor) ||
         !(sensor->range_rate_span_mps < 2.0f * v_max_mps)) {
         return 0.0f;
     }
     return rho_log(2.0f * v_max_mps / sensor->range_rate_span_mps);
 }
 
-int rho_measurement_bearing_innovation(const float state[6], float x_m, float y_m,
-                                       float bearing_rad, float row[6], float *off_m,
-                                       float *range_m)
+int rho_measurement_bearing_row(const float state[6], float x_m, float y_m, float bearing_rad,
+                                float row[6], float *off_m, float *range_m)
 {
     float dx_m = state[0] - x_m, dy_m = state[1] - y_m;
     float range2_m2 = dx_m * dx_m + dy_m * dy_m;

@@ -142,8 +142,7 @@ static void learn_exact_rate_share(struct rho_tracker *tracker, const struct rho
     if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return;
     }
-    const struct echo_view view =
-        rho_clutter_map_view_from_sensor(look->sensor, echo->x_m, echo->y_m);
+    const struct echo_view view = rho_clutter_map_view(look->sensor, echo->x_m, echo->y_m);
     const struct exact_and_other_range_rate_ratios ratios =
         exact_and_other_range_rate_ratios(look, echo, &view, plot);
     const float share = share_of_exact_rates(map);
@@ -196,7 +195,7 @@ static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct 
             continue;
         }
         if (probability < 0.0f) {
-            view = rho_clutter_map_view_from_sensor(look->sensor, echo->x_m, echo->y_m);
+            view = rho_clutter_map_view(look->sensor, echo->x_m, echo->y_m);
             probability =
                 rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
         }
@@ -237,8 +236,7 @@ static int predict_echo_or_drop_if_lost(const struct rho_look *look, struct rho_
         return 0;
     }
     if (echo->region == UINT8_MAX || echo->unseen == 1) {
-        echo->region =
-            rho_clutter_map_region_of_place(look->sensor, range_max_m, echo->x_m, echo->y_m);
+        echo->region = rho_clutter_map_region_at(look->sensor, range_max_m, echo->x_m, echo->y_m);
     }
     rho_clutter_map_predict_echo(echo, look->time_us);
     if (!(echo->along[0] + echo->across[0] < UNKNOWN_SHARE * range_max_m * range_max_m)) {
@@ -285,10 +283,8 @@ struct direction {
 static struct direction azimuth_bin_and_range_of_plot(const struct rho_look *look, uint32_t row)
 {
     const struct rho_plot *plot = &look->scan->plots[row];
-    const struct echo_view view =
-        rho_clutter_map_view_from_sensor(look->sensor, plot->x_m, plot->y_m);
-    const unsigned bin =
-        (unsigned)(rho_clutter_map_azimuth_in_turns(&view) * (float)RHO_ECHO_STROBES);
+    const struct echo_view view = rho_clutter_map_view(look->sensor, plot->x_m, plot->y_m);
+    const unsigned bin = (unsigned)(rho_clutter_map_azimuth_turns(&view) * (float)RHO_ECHO_STROBES);
     return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
 }
 
@@ -365,8 +361,7 @@ static int may_have_strobes(const struct rho_look *look, float range_max_m)
     for (uint32_t i = 0; i < look->num_gated; i++) {
         if (look->fates[i] == RHO_FATE_HELD) {
             const struct rho_plot *plot = &look->scan->plots[i];
-            const struct echo_view view =
-                rho_clutter_map_view_from_sensor(look->sensor, plot->x_m, plot->y_m);
+            const struct echo_view view = rho_clutter_map_view(look->sensor, plot->x_m, plot->y_m);
             ranges |= 1u << eighth_of_range(view.range_m, range_max_m);
             plots += 1.0f;
         }
@@ -534,8 +529,8 @@ static void subtract_track_returns_from_map_counts(struct rho_tracker *tracker,
     }
     rho_clutter_map_remove_returns(
         &tracker->clutter_map,
-        rho_clutter_map_region_of_place(look->sensor, range_max_of_sensor(look),
-                                        track->kalman.state[0], track->kalman.state[1]),
+        rho_clutter_map_region_at(look->sensor, range_max_of_sensor(look), track->kalman.state[0],
+                                  track->kalman.state[1]),
         track->returns);
     track->has_taken_back = 1;
 }
@@ -656,8 +651,7 @@ static void start_echoes_at_plots_not_taken(struct rho_tracker *tracker,
         struct rho_echo *echo = &map->echoes[place];
         rho_clutter_map_start_echo(map, echo, look->scan->sensor_id, look->time_us, plot);
         echo->is_target = (uint8_t)is_row_in_set(targets, i);
-        echo->region =
-            rho_clutter_map_region_of_place(look->sensor, range_max_m, plot->x_m, plot->y_m);
+        echo->region = rho_clutter_map_region_at(look->sensor, range_max_m, plot->x_m, plot->y_m);
     }
 }
 

@@ -67,9 +67,9 @@ void rho_learning_apply_notch(const struct rho_look *look)
 static unsigned interval_of_rate(const struct rho_sensor *sensor, const struct rho_track *track)
 {
     float row[6], rate_mps;
-    if (!rho_measurement_predict_range_rate(track->kalman.state, sensor,
-                                            track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
-                                            &rate_mps)) {
+    if (!rho_measurement_predict_rate(track->kalman.state, sensor,
+                                      track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
+                                      &rate_mps)) {
         return RHO_LEARN_RATES - 1u;
     }
     /* the squares of the intervals' limits double, so that the float's exponent is the index */

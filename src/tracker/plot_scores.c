@@ -167,8 +167,8 @@ void rho_score_begin(struct rho_tracker *tracker, const struct rho_look *look,
         .log_per_mps = -look->log_rates,
         .log_per_range_rate = -look->log_range_rates,
     };
-    rho_hypotheses_clear_candidates_get_gate_box(&tracker->hypotheses, track->slot, &scores->box);
-    scores->box.sigma_factor = rho_measurement_sigma_factor_at_least_one(look->sensor);
+    rho_hypotheses_gate_box(&tracker->hypotheses, track->slot, &scores->box);
+    scores->box.sigma_factor = rho_measurement_factor_max(look->sensor);
     scores->near = plots_near_track(look, track, &scores->box);
     choose_plots_to_score(look, work, track, scores);
 }

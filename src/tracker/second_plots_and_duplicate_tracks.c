@@ -97,7 +97,7 @@ static struct bin_offset bin_offset_of_plots(const struct rho_sensor *sensor,
                                              const struct rho_plot *first,
                                              const struct rho_plot *second)
 {
-    const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, first->x_m, first->y_m);
+    const struct echo_view view = rho_clutter_map_view(sensor, first->x_m, first->y_m);
     const float dx_m = second->x_m - first->x_m, dy_m = second->y_m - first->y_m;
     const float along_m = dx_m * view.along_x + dy_m * view.along_y;
     const float across_m = dy_m * view.along_x - dx_m * view.along_y;

@@ -170,7 +170,7 @@ int rho_turn_was_seen_by(const struct rho_track *track, int32_t sensor_id)
 
 int rho_turn_is_sound(const struct rho_tracker_look *health)
 {
-    return rho_angle_are_sector_ends_valid(health->sector_from_rad, health->sector_to_rad) &&
+    return rho_angle_is_valid_sector(health->sector_from_rad, health->sector_to_rad) &&
            rho_is_stored_time(health->time_us) &&
            rho_tracker_is_score_in_range(health->start_mnat) &&
            rho_tracker_is_score_in_range(health->confirm_mnat) &&

@@ -124,7 +124,7 @@ static float root_mean_variance(const struct rho_kalman *kalman, int first)
     float sum = 0.0f;
     int axes = 0;
     for (int axis = 0; axis < 3; axis++) {
-        if (rho_kalman_has_estimate_on_axis(kalman, axis)) {
+        if (rho_kalman_has_axis(kalman, axis)) {
             sum += kalman->covariance[RHO_AT(first + axis, first + axis)];
             axes++;
         }
@@ -203,7 +203,7 @@ static enum rho_status predict_and_update_kalman(struct rho_track *track,
 /* Copies the estimate of the input estimation filter, and its inputs, to the track. */
 static void copy_input_estimate_to_track(struct rho_track *track)
 {
-    rho_input_get_corrected_estimate(&track->input, &track->kalman);
+    rho_input_estimate(&track->input, &track->kalman);
     for (int axis = 0; axis < 3; axis++) {
         int is_present = (track->input.present >> axis & 1u) != 0;
         track->accel_mps2[axis] = is_present ? track->input.input_mps2[axis] : 0.0f;
@@ -222,8 +222,8 @@ static enum rho_status update_input_by_plot(struct rho_input *input,
     enum rho_status status = rho_input_update_position(input, config, &measurement);
     int num_velocities = !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement.has_z ? 3 : 2;
     for (int axis = 0; axis < num_velocities && status == RHO_OK; axis++) {
-        status = rho_input_update_filter_by_element(input, config, 3 + axis, velocity_mps[axis],
-                                                    plot->sigma_mps * plot->sigma_mps);
+        status = rho_input_update_element(input, config, 3 + axis, velocity_mps[axis],
+                                          plot->sigma_mps * plot->sigma_mps);
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status =
@@ -244,7 +244,7 @@ static enum rho_status predict_and_update_input(struct rho_track *track,
         status = update_input_by_plot(&input, seen, model->input);
     }
     if (status == RHO_OK) {
-        rho_input_test_and_end_inputs(&input, model->input);
+        rho_input_decide(&input, model->input);
         track->input = input;
         track->is_undecided = 0;
         copy_input_estimate_to_track(track);
@@ -259,7 +259,7 @@ static enum rho_status predict_and_update_input(struct rho_track *track,
 static void decide_undecided_inputs(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
-        rho_input_test_and_end_inputs(&track->input, model->input);
+        rho_input_decide(&track->input, model->input);
         copy_input_estimate_to_track(track);
         track->is_undecided = 0;
     }
@@ -300,7 +300,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
 void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalman *expected)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
-        rho_input_estimate_with_all_inputs(&track->input, expected);
+        rho_input_gate_estimate(&track->input, expected);
     } else {
         *expected = track->kalman;
     }
@@ -444,8 +444,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     if (!track || !estimate || !model) {
         return RHO_ERROR_NULL;
     }
-    if (hits < 1 || !rho_kalman_has_estimate_on_axis(estimate, 0) ||
-        !rho_kalman_has_estimate_on_axis(estimate, 1)) {
+    if (hits < 1 || !rho_kalman_has_axis(estimate, 0) || !rho_kalman_has_axis(estimate, 1)) {
         return RHO_ERROR_VALUE;
     }
     struct rho_track start;
@@ -527,8 +526,7 @@ enum rho_status rho_track_return_to_time_it_was_moved_from(struct rho_track *tra
     enum rho_status status =
         RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
             ? move_merged_estimate_unless_error(
-                  track, time_us,
-                  rho_hypotheses_predict_noiseless(model->hypotheses, track->slot, time_us))
+                  track, time_us, rho_hypotheses_move(model->hypotheses, track->slot, time_us))
             : rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us),
                                  0.0f);
     if (status == RHO_OK) {
@@ -574,10 +572,9 @@ enum rho_status rho_track_update_by_plot(struct rho_track *track, const struct r
     return RHO_OK;
 }
 
-enum rho_status rho_track_commit_hypotheses_to_scan(struct rho_track *track,
-                                                    const struct rho_hypotheses_scan *scan,
-                                                    int32_t sensor_id,
-                                                    const struct rho_track_model *model)
+enum rho_status rho_track_commit_scan(struct rho_track *track,
+                                      const struct rho_hypotheses_scan *scan, int32_t sensor_id,
+                                      const struct rho_track_model *model)
 {
     struct rho_hypotheses_outcome outcome;
     if (!track || !scan || !model) {

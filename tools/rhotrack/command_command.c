@@ -8,7 +8,7 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "rhotrack/command.h"
 #include "rhotrack/message.h"
 #include "transport/transport.h"

@@ -10,12 +10,12 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_track_table.h"
 #include "io/asterix/asterix_track_writer.h"
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 #include "io/log/lcm_log.h"
 #include "io/log/message_source.h"
 #include "io/output/geojson_rows.h"

@@ -4,12 +4,12 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/evaluation_output.h"
 #include "evaluation/evaluation_tables.h"
-#include "io/csv/table_columns_and_cells.h"
-#include "io/log/log_messages_to_table.h"
+#include "io/csv/csv_table.h"
+#include "io/log/log_table.h"
 #include "next_command.h"
 
 static void check_output_ending(const char *path)

@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "initiation/initiate_hough.h"
 #include "initiation/initiate_passive.h"
 #include "initiation/initiate_passive_paper.h"
 #include "io/output/initiated_output.h"
-#include "io/scans/bearing_frame_reader.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/bearing_reader.h"
+#include "io/scans/plot_reader.h"
 #include "io/turns/merged_sectors.h"
 #include "rhotrack/tracker.h"
 
@@ -49,15 +49,15 @@ static void push_scan_to_initiator(struct initiation_run *batch, const struct rh
 static void search_batch_by_kernel(struct initiation_run *batch, const struct command_line *line)
 {
     struct rho_initiator_config config;
-    struct plot_scan_reader *reader;
+    struct plot_reader *reader;
     int64_t start_us;
 
     parameters_to_initiator(&line->parameters, &config);
     batch->initiator = must_alloc(sizeof *batch->initiator);
     must_succeed(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config),
                  "initiator");
-    reader = plot_scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
-                                   line->keep_going);
+    reader =
+        plot_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     /* the last scans that fit the initiation window; sectors of a turn are joined to one scan */
     struct revolutions revolutions = revolutions_read_last(reader, batch->initiator->config.scans);
 
@@ -79,7 +79,7 @@ static void search_batch_by_kernel(struct initiation_run *batch, const struct co
         fprintf(stderr, "rhotrack: %" PRIu32 " plots were not fully tried for tracks (work_max)\n",
                 batch->initiator->budget.plots_not_tried);
     }
-    plot_scan_reader_close(reader);
+    plot_reader_close(reader);
 }
 
 static void write_found_tracks(const struct initiation_run *batch, const char *path)
@@ -156,7 +156,7 @@ static void initiate_kernel(const struct command_line *line)
 /* The method of --method; by default passive for files of bearings, and kernel for plots. */
 static enum method choose_method(const struct command_line *line)
 {
-    bool has_bearings = bearing_frame_reader_file_has_bearings(line->arguments[0]);
+    bool has_bearings = bearing_reader_is_bearings(line->arguments[0]);
 
     if (!line->method) {
         return has_bearings ? METHOD_PASSIVE : METHOD_KERNEL;

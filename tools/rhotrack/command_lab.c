@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 
 static const char *const names[] = {"experiment", "bench"};
 

@@ -12,7 +12,7 @@
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/csv/columns.h"
 #include "io/csv/guess_origin.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
 
@@ -344,7 +344,7 @@ static void set_default_origin_if_lacking(struct command_line *line, const char 
                                           struct asterix_place place)
 {
     if (place.is_given && !parameters_has_origin(&line->parameters)) {
-        asterix_set_and_report_default_origin(path, &place, &line->parameters);
+        asterix_set_default_origin(path, &place, &line->parameters);
     }
 }
 
@@ -459,7 +459,7 @@ static bool are_plot_files_regular(const struct command_line *line)
     return true;
 }
 
-void command_line_set_origin_and_places(struct command_line *line)
+void command_line_set_places(struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments && !parameters_has_origin(&line->parameters); i++) {
         set_default_origin_if_lacking(line, line->arguments[i],

@@ -6,8 +6,8 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
-#include "io/output/clutter_map_load_and_save.h"
+#include "commands.h"
+#include "io/output/clutter_map_file.h"
 #include "picture/gnuplot_picture_file.h"
 #include "picture/interactive_map_page.h"
 #include "picture/picture_data.h"

@@ -8,13 +8,13 @@
 #include <time.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "io/asterix/asterix_udp_receiver.h"
 #include "io/log/lcm_log.h"
-#include "io/log/message_shift_time_number_epoch.h"
+#include "io/log/message_shift.h"
 #include "io/log/message_source.h"
-#include "io/scans/scan_interval_hint_for_single_plot_scans.h"
-#include "live/publish_stop_signals_epoch_and_send.h"
+#include "io/scans/scan_interval_hint.h"
+#include "live/publish_stop.h"
 #include "rhotrack/udpm.h"
 #include "transport/transport.h"
 
@@ -127,7 +127,7 @@ static void record_first_pass_event(struct player *player, const struct message_
     if (player->passes > 0) {
         return;
     }
-    scan_interval_hint_count_lone_plots(&player->plots, event);
+    scan_interval_hint_count(&player->plots, event);
     player->times += player->times == 0 || event->utime != player->last_us;
     player->last_us = event->utime;
     if (message_scan_number(event->data, event->size, &scan)) {

@@ -4,7 +4,7 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "next_command.h"
 #include "scene/scene.h"
 

@@ -11,20 +11,20 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "initiation/last_bearings.h"
-#include "io/output/clutter_map_load_and_save.h"
+#include "io/output/clutter_map_file.h"
 #include "io/output/tracks_output.h"
 #include "io/output/zone_output.h"
-#include "io/scans/bearing_frame_reader.h"
-#include "io/scans/merge_plots_and_bearings.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/bearing_reader.h"
+#include "io/scans/merged_inputs.h"
+#include "io/scans/plot_reader.h"
 #include "next_command.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/pipeline_show_ghosts_votes_hypotheses.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "pipeline/pipeline_show.h"
+#include "settings/initiation_methods.h"
 
 struct tracking {
     struct pipeline pipeline;
@@ -191,7 +191,7 @@ static const char *track_growing_file(struct tracking *tracking, struct merged_i
                                       struct tracks_output *tracks, int64_t quiet_us)
 {
     const struct timespec pause = {.tv_nsec = 100000000};
-    struct plot_scan_reader *reader = merged_inputs_scan_reader(inputs);
+    struct plot_reader *reader = merged_inputs_scan_reader(inputs);
     uint64_t position = 0;
     int64_t since_us = monotonic_clock_us();
     const char *why = NULL;
@@ -251,7 +251,7 @@ static const char *follow_input(struct tracking *tracking, struct merged_inputs 
 }
 
 static double mean_step_us(const struct tracking *tracking,
-                           const struct merged_inputs_step_and_plot_counts *counts)
+                           const struct merged_inputs_counts *counts)
 {
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
@@ -269,7 +269,7 @@ static const char *advice_on_late_scans(const struct parameters *parameters, uin
 }
 
 static void print_summary(const struct tracking *tracking,
-                          const struct merged_inputs_step_and_plot_counts *counts,
+                          const struct merged_inputs_counts *counts,
                           const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
@@ -405,7 +405,7 @@ static double count_known_echoes(const struct rho_clutter_map *map)
 }
 
 static void print_run_json(const struct tracking *tracking, const struct merged_inputs *inputs,
-                           const struct merged_inputs_step_and_plot_counts *counts,
+                           const struct merged_inputs_counts *counts,
                            const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
@@ -462,8 +462,8 @@ static void open_pipeline(struct tracking *tracking, const struct merged_inputs 
 static struct merged_inputs *open_inputs(const struct command_line *line)
 {
     if (!line->follow) {
-        return merged_inputs_open_plots_and_bearings(line->arguments, line->num_arguments,
-                                                     &line->parameters, line->keep_going);
+        return merged_inputs_open(line->arguments, line->num_arguments, &line->parameters,
+                                  line->keep_going);
     }
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
@@ -495,7 +495,7 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
                                          const struct merged_inputs *inputs,
                                          const struct command_line *line)
 {
-    struct merged_inputs_step_and_plot_counts counts = merged_inputs_step_and_plot_counts(inputs);
+    struct merged_inputs_counts counts = merged_inputs_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
     if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
@@ -544,9 +544,9 @@ int command_track(struct command_line *line)
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
     for (int i = 0; i < line->num_arguments; i++) {
-        clutter_map_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
+        clutter_map_file_check_output(line->clutter_map, line->arguments[i], "input");
     }
-    clutter_map_file_refuse_same_file(line->clutter_map, line->output, "output");
+    clutter_map_file_check_output(line->clutter_map, line->output, "output");
     if (line->show && !tracks_output_path_is_log(line->output)) {
         fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
     }

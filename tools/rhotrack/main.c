@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "io/csv/columns.h"
 #include "rhotrack/rhotrack.h"
 
@@ -285,7 +285,7 @@ int main(int argc, char **argv)
     if (command->run == command_convert) {
         convert_refuse_radar(&line);
     }
-    command_line_set_origin_and_places(&line);
+    command_line_set_places(&line);
     const int exit_code = command->run(&line);
 
     columns_check_option_used();

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 
 /*
  * Prints a suggested command line on standard error, if that is a terminal: the program's name, the

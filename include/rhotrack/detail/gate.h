@@ -57,8 +57,7 @@ RHO_MUST_CHECK enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough,
  * planes, m/s; the paper's (29), (30). NaN where the velocity is. Cost: about 45 instructions.
  * Stack: 8 bytes.
  */
-float rho_gate_hough_velocity_distance_from_lines_mps(const struct rho_gate_hough *hough,
-                                                      const float velocity_mps[3]);
+float rho_gate_hough_distance_mps(const struct rho_gate_hough *hough, const float velocity_mps[3]);
 
 /*
  * The range rate that a track's prediction expects, its variance, and its covariances with the

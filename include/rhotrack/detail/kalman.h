@@ -51,7 +51,7 @@ struct rho_kalman {
 /* A variance raised to the floor: with less an open axis would look closed. No stack. */
 static inline float rho_kalman_floored(float variance)
 {
-    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
+    return variance > RHO_VARIANCE_MIN ? variance : RHO_VARIANCE_MIN;
 }
 
 /* Raises the variances of n states to the floor; 0 marks a closed axis and stays. No stack. */
@@ -60,8 +60,8 @@ static inline void rho_kalman_floor_variances(float *covariance, int n)
     RHO_UNROLL
     for (int i = 0; i < n; i++) {
         float *variance = &covariance[RHO_AT(i, i)];
-        if (*variance < RHO_KALMAN_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
-            *variance = RHO_KALMAN_VARIANCE_MIN;
+        if (*variance < RHO_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
+            *variance = RHO_VARIANCE_MIN;
         }
     }
 }
@@ -72,7 +72,7 @@ void rho_kalman_init(struct rho_kalman *kalman);
 /*
  * Opens axis 0 (x), 1 (y) or 2 (z) with a first position and its variance, velocity 0 with its
  * variance; covariances with the other axes become 0. Errors: NULL, VALUE (axis, not finite,
- * variance outside RHO_KALMAN_VARIANCE_MIN .. MAX). Constant cost.
+ * variance outside RHO_VARIANCE_MIN .. MAX). Constant cost.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis,
                                                     float position_m, float position_variance,
@@ -80,7 +80,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
 
 /*
  * Sets the covariance to variance times I, m^2 and (m/s)^2, on the axes that are open; variance is
- * RHO_KALMAN_VARIANCE_MIN .. MAX. Constant cost.
+ * RHO_VARIANCE_MIN .. MAX. Constant cost.
  */
 void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
 
@@ -89,7 +89,7 @@ void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
  * acceleration on each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2
  * dt], so that one long step equals several short ones. Going back (dt_s < 0) adds no noise: forth
  * and back without noise is the identity but for rounding.
- * Errors: NULL, VALUE (arguments, or a result beyond RHO_KALMAN_VARIANCE_MAX; unchanged).
+ * Errors: NULL, VALUE (arguments, or a result beyond RHO_VARIANCE_MAX; unchanged).
  * Cost: about 240 instructions. Stack: 72 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s,
@@ -98,14 +98,14 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
 /*
  * Adds process noise to each open axis: for papers that state Q per step, independent of the
  * interval. Errors: NULL, VALUE (a variance negative or not finite, a result beyond
- * RHO_KALMAN_VARIANCE_MAX); unchanged. Cost: about 60 instructions. Stack: 16 bytes.
+ * RHO_VARIANCE_MAX); unchanged. Cost: about 60 instructions. Stack: 16 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float velocity_variance);
 
 /*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0
- * (raised to RHO_KALMAN_VARIANCE_MIN). *nis (may be NULL) gets the normalised innovation squared.
+ * (raised to RHO_VARIANCE_MIN). *nis (may be NULL) gets the normalised innovation squared.
  * An element of an axis that is not open is left unchanged. Errors: NULL, VALUE (element, value or
  * variance, a result not finite), SINGULAR (innovation variance not positive and finite);
  * unchanged. Cost: about 300 instructions. Stack: 144 bytes.
@@ -143,26 +143,24 @@ struct rho_kalman_row {
 /*
  * Linearises a range rate with noise `variance` at an estimate, into *seen. Returns 0, and fills
  * nothing, if the estimate is nearer than a metre to the sensor. Cost:
- * rho_measurement_predict_range_rate, and a division. Stack: 170 bytes.
+ * rho_measurement_predict_rate, and a division. Stack: 170 bytes.
  */
-int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
-                                    const struct rho_sensor *sensor, float rate_mps, float variance,
-                                    struct rho_kalman_row *seen);
+int rho_kalman_linearise_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                              float rate_mps, float variance, struct rho_kalman_row *seen);
 
 /*
  * True unless the range rate is ambiguous and the estimate is too uncertain to unfold it
  * (measurement.h). Cost: rho_linalg_project6 for an ambiguous range rate.
  */
-int rho_kalman_can_unfold_range_rate(const struct rho_kalman *kalman,
-                                     const struct rho_sensor *sensor,
-                                     const struct rho_kalman_row *seen);
+int rho_kalman_can_unfold(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                          const struct rho_kalman_row *seen);
 
 /*
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate; to
  * be called after the update with the same plot's position. For an estimate nearer than a metre to
  * the sensor, and for an ambiguous range rate that cannot be unfolded, nothing is done: RHO_OK.
  * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and
- * rho_measurement_predict_range_rate. Stack: 250 bytes.
+ * rho_measurement_predict_rate. Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                                             const struct rho_sensor *sensor,
@@ -200,7 +198,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
                                                          float sigma_rad);
 
 /* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
-int rho_kalman_has_estimate_on_axis(const struct rho_kalman *kalman, int axis);
+int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis);
 
 #ifdef __cplusplus
 }

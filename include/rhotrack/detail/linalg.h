@@ -36,9 +36,9 @@ extern "C" {
 #define RHO_ROUNDING_ALLOWANCE (1.0f + RHO_ROUNDING_UNITS(16))
 
 /* least variance of an element of an open axis; updates keep it there */
-#define RHO_KALMAN_VARIANCE_MIN 1.0e-9f
+#define RHO_VARIANCE_MIN 1.0e-9f
 /* largest variance; larger results are refused, RHO_ERROR_VALUE */
-#define RHO_KALMAN_VARIANCE_MAX 1.0e12f
+#define RHO_VARIANCE_MAX 1.0e12f
 
 /* Indices of the elements of row i of a packed symmetric 6 x 6 matrix. */
 extern const uint8_t rho_linalg_row6[6][6];

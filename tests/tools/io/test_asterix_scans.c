@@ -330,7 +330,7 @@ static void test_day_of_the_first_plot_follows_the_reference_time(void **state)
     struct asterix_scan scan;
 
     (void)state;
-    asterix_scans_set_reference_time(scans, INT64_C(3) * ASTERIX_DAY - 50);
+    asterix_scans_set_day(scans, INT64_C(3) * ASTERIX_DAY - 50);
     take_plot_at_antenna(scans, 100);
     asterix_scans_finish(scans);
     assert_true(asterix_scans_next(scans, &scan));

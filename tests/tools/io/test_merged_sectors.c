@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/plot_reader.h"
 #include "io/turns/merged_sectors.h"
 
 #define HEADER                                                                                     \
@@ -41,7 +41,7 @@ static struct revolutions read_newest_turns_of_all_radars(const char *text, size
 {
     char path[] = "/tmp/rhotrack-turns-XXXXXX", *paths[] = {path};
     struct parameters parameters;
-    struct plot_scan_reader *reader;
+    struct plot_reader *reader;
     struct revolutions revolutions;
     int file = mkstemp(path);
 
@@ -49,9 +49,9 @@ static struct revolutions read_newest_turns_of_all_radars(const char *text, size
     assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
     close(file);
     parameters_set_defaults(&parameters);
-    reader = plot_scan_reader_open(paths, 1, &parameters, false);
+    reader = plot_reader_open(paths, 1, &parameters, false);
     revolutions = revolutions_read_last(reader, max);
-    plot_scan_reader_close(reader);
+    plot_reader_close(reader);
     unlink(path);
     return revolutions;
 }

@@ -614,7 +614,7 @@ static double density_error(const struct region *region, int scans)
             plots[count++] = plot_at(place_m, start_mps);
         }
         scan = scan_of(step, plots, count, measures);
-        double found = scan_clutter_density_add_and_get_log(density, &scan, place_m, region->pd);
+        double found = scan_clutter_density_add(density, &scan, place_m, region->pd);
         sum += step >= scans / 2 ? found - expected : 0.0;
     }
     scan_clutter_density_free(density);
@@ -666,7 +666,7 @@ static void the_density_of_a_narrow_strip_is_estimated(void **state)
 
             plots[i] = plot_at(p, start_mps);
         }
-        sum += scan_clutter_density_add_and_get_log(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
+        sum += scan_clutter_density_add(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
     }
     assert_near(sum / 100.0, 0.0, 0.25);
     scan_clutter_density_free(density);
@@ -693,7 +693,7 @@ static void the_density_estimate_follows_a_change(void **state)
             p[1] += random_between(&random, -half_m, half_m);
             plots[i] = plot_at(p, start_mps);
         }
-        found = scan_clutter_density_add_and_get_log(density, &scan, start_m, 0.9);
+        found = scan_clutter_density_add(density, &scan, start_m, 0.9);
         if (step == 199) {
             assert_near(found, log(9.1 / 1e6), 0.3);
         }
@@ -716,7 +716,7 @@ static void without_clutter_the_density_has_its_lower_bound(void **state)
     for (int step = 0; step < 20; step++) {
         struct rho_scan scan = scan_of(step, &plot, step % 3 ? 1 : 0, ALL);
 
-        assert_near(scan_clutter_density_add_and_get_log(density, &scan, start_m, 0.9),
+        assert_near(scan_clutter_density_add(density, &scan, start_m, 0.9),
                     log(0.1) - 2.0 * (log_ball + 3.0 * log(1000.0)), 1e-9);
     }
     scan_clutter_density_free(density);
@@ -734,7 +734,7 @@ static void plots_at_one_place_fill_the_volume_of_their_noise(void **state)
     for (int i = 0; i < 4; i++) {
         plots[i] = plot_at(start_m, start_mps);
     }
-    assert_near(scan_clutter_density_add_and_get_log(density, &scan, start_m, 0.9),
+    assert_near(scan_clutter_density_add(density, &scan, start_m, 0.9),
                 log(3.1) - 2.0 * log_ball - 3.0 * log(10.0) - 3.0 * log(3.0), 1e-6);
     scan_clutter_density_free(density);
 }
@@ -754,12 +754,12 @@ static void each_sensor_has_its_own_clutter_density(void **state)
         double expected;
 
         draw_plots_about(plots, start_m, start_mps, &random);
-        expected = scan_clutter_density_add_and_get_log(alone, &scan, start_m, 0.9);
-        assert_near(scan_clutter_density_add_and_get_log(both, &scan, start_m, 0.9), expected, 0.0);
+        expected = scan_clutter_density_add(alone, &scan, start_m, 0.9);
+        assert_near(scan_clutter_density_add(both, &scan, start_m, 0.9), expected, 0.0);
         draw_plots_about(plots, far_m, start_mps, &random);
         scan.sensor_id = 1;
         scan.num_plots = 3;
-        (void)scan_clutter_density_add_and_get_log(both, &scan, far_m, 0.9);
+        (void)scan_clutter_density_add(both, &scan, far_m, 0.9);
     }
     scan_clutter_density_free(both);
     scan_clutter_density_free(alone);
@@ -784,9 +784,9 @@ static void range_rates_add_a_dimension_to_the_density(void **state)
             plots[i].range_rate_mps = (float)random_between(&random, -200.0, 200.0);
             plots[i].sigma_range_rate_mps = 1.0f;
         }
-        double plain = scan_clutter_density_add_and_get_log(without, &scan, start_m, 0.9);
+        double plain = scan_clutter_density_add(without, &scan, start_m, 0.9);
         scan.measures = RHO_MEASURES_RANGE_RATE;
-        sum += scan_clutter_density_add_and_get_log(with, &scan, start_m, 0.9) - plain;
+        sum += scan_clutter_density_add(with, &scan, start_m, 0.9) - plain;
     }
     assert_near(sum / 40.0, -log(400.0), 0.05);
     scan_clutter_density_free(with);

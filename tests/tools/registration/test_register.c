@@ -16,7 +16,7 @@
 #include "pipeline/pipeline.h"
 #include "registration/cholesky.h"
 #include "registration/register.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 #include "tools/scene_for_tracker.h"
 
 #define SEED 4711

@@ -162,11 +162,10 @@ static void the_crossing_angle_is_the_difference_of_the_bearings(void **state)
 {
     (void)state;
     set_base(0, -10e3, 0, 10e3);
-    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, 0.1f, -0.2f), 0.3, 1e-6);
-    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, -0.2f, 0.1f), -0.3, 1e-6);
-    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, 3.0f, -3.0f), 2.0 * PI - 6.0,
-                       1e-6);
-    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, 0.1f, 3.0f), -PI, 1e-6);
+    assert_float_equal(rho_crossing_angle_rad(&base, 0.1f, -0.2f), 0.3, 1e-6);
+    assert_float_equal(rho_crossing_angle_rad(&base, -0.2f, 0.1f), -0.3, 1e-6);
+    assert_float_equal(rho_crossing_angle_rad(&base, 3.0f, -3.0f), 2.0 * PI - 6.0, 1e-6);
+    assert_float_equal(rho_crossing_angle_rad(&base, 0.1f, 3.0f), -PI, 1e-6);
 }
 
 /* It does not matter which sensor is a and which is b. */

@@ -7,7 +7,7 @@
 #define RHOTRACK_TOOL_EVALUATION_TABLES_H
 
 #include "evaluation/evaluation.h"
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 #include "settings/parameters.h"
 
 /*

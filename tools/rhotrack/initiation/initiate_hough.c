@@ -9,7 +9,7 @@
 #include "base/common.h"
 #include "io/output/initiated_output.h"
 #include "io/scans/hough_batch.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/plot_reader.h"
 #include "io/turns/merged_sectors.h"
 #include "pipeline/pipeline.h"
 
@@ -25,8 +25,8 @@ struct hough_search {
 
 static void read_last_revolutions(struct hough_batch *batch, const struct command_line *line)
 {
-    struct plot_scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
-                                                            &line->parameters, line->keep_going);
+    struct plot_reader *reader =
+        plot_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     struct revolutions revolutions =
         revolutions_read_last(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
 
@@ -34,7 +34,7 @@ static void read_last_revolutions(struct hough_batch *batch, const struct comman
     revolutions_free(&revolutions);
     plot_reader_report_skipped(reader);
     hough_batch_report_beyond(batch);
-    plot_scan_reader_close(reader);
+    plot_reader_close(reader);
 }
 
 static void warn_of_dropped_votes(const struct rho_hough_result *result)

@@ -9,7 +9,7 @@
 #include "io/output/initiated_output.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/angle.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 static enum rho_status push_passive_frame(void *object, const struct rho_frame *frame,
                                           uint8_t *fates)
@@ -96,7 +96,7 @@ void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
+    struct bearing_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_config config = method_passive_config(&parameters);
     struct bearings_search with = {passive, &passive->batch, push_passive_frame,
                                    search_passive_batch};

@@ -8,7 +8,7 @@
 #include "initiation/last_bearings.h"
 #include "io/output/initiated_output.h"
 #include "pipeline/pipeline.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 static enum rho_status push_paper_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
@@ -95,7 +95,7 @@ void initiate_passive_paper(const struct command_line *line)
 {
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
+    struct bearing_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
     struct bearings_search with = {paper, &paper->batch, push_paper_frame, search_paper_batch};
 

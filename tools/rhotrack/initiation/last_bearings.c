@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/scans/bearing_frame_reader.h"
+#include "io/scans/bearing_reader.h"
 #include "pipeline/pipeline.h"
 
 static double sensor_distance_m(const struct frame_sensor *a, const struct frame_sensor *b)
@@ -78,11 +78,11 @@ static void push_and_count_frame(struct last_bearings *batch, const struct beari
     batch->time_us = frame->time_us;
 }
 
-struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
-                                                struct parameters *parameters)
+struct bearing_reader *last_bearings_open(const struct command_line *line,
+                                          struct parameters *parameters)
 {
-    struct bearing_frame_reader *reader = bearing_frame_reader_open(
-        line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct bearing_reader *reader = bearing_reader_open(line->arguments, line->num_arguments,
+                                                        &line->parameters, line->keep_going);
     const struct frame_sensor *sensors;
     size_t count;
 
@@ -93,7 +93,7 @@ struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
 }
 
 struct last_bearings last_bearings_search_and_close(const struct bearings_search *search,
-                                                    struct bearing_frame_reader *reader,
+                                                    struct bearing_reader *reader,
                                                     const struct parameters *parameters)
 {
     struct last_bearings batch = {.wall_us = 0};
@@ -104,7 +104,7 @@ struct last_bearings last_bearings_search_and_close(const struct bearings_search
     sensors = bearing_reader_sensors(reader, &num_sensors);
     bearing_sensors_check(sensors, num_sensors, search->batch, parameters);
     bearing_reader_keep_last(reader, search->batch->scans_max);
-    while ((frame = bearing_frame_reader_next(reader))) {
+    while ((frame = bearing_reader_next(reader))) {
         push_and_count_frame(&batch, search, frame);
     }
     int64_t start_us = monotonic_clock_us();
@@ -115,6 +115,6 @@ struct last_bearings last_bearings_search_and_close(const struct bearings_search
         fprintf(stderr, "rhotrack: %" PRIu64 " bearings beyond %d a scan are left out\n",
                 batch.num_lost, RHO_MAX_BEARINGS);
     }
-    bearing_frame_reader_close(reader);
+    bearing_reader_close(reader);
     return batch;
 }

@@ -6,8 +6,8 @@
 #ifndef RHOTRACK_TOOL_LAST_BEARINGS_H
 #define RHOTRACK_TOOL_LAST_BEARINGS_H
 
-#include "commands_and_parsed_line.h"
-#include "io/scans/bearing_frame_reader.h"
+#include "commands.h"
+#include "io/scans/bearing_reader.h"
 #include "rhotrack/detail/recent_bearing_frames.h"
 
 /* A method's initiator for bearings, initialised, and the calls to feed and search it. */
@@ -29,15 +29,15 @@ struct last_bearings {
  * Opens files of bearings, and sets passive_apart_m of the parameters from their sensors. Exit 2
  * for fewer than two sensors and for bad input.
  */
-struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
-                                                struct parameters *parameters);
+struct bearing_reader *last_bearings_open(const struct command_line *line,
+                                          struct parameters *parameters);
 
 /*
  * Pushes the last frames, searches them, and closes the reader. Exit 2 for too many sensors, or
  * sensors too far apart for the batch's cells.
  */
 struct last_bearings last_bearings_search_and_close(const struct bearings_search *search,
-                                                    struct bearing_frame_reader *reader,
+                                                    struct bearing_reader *reader,
                                                     const struct parameters *parameters);
 
 /* Largest distance between two of the sensors, m. */

@@ -208,7 +208,7 @@ static void set_clutter(struct maintainer *maintainer, const struct rho_scan *sc
 
     if (isnan(log_density)) {
         maintainer_predict(maintainer, scan->time_us, &predicted, place_m);
-        log_density = scan_clutter_density_add_and_get_log(maintainer->density, scan, place_m, pd);
+        log_density = scan_clutter_density_add(maintainer->density, scan, place_m, pd);
     }
     log_density += (axes - 2) * log((double)RHO_CLUTTER_HEIGHT_M) +
                    rates * log(2.0 * (double)maintainer->tracker.config.v_max_mps);
@@ -260,7 +260,7 @@ static struct rho_kalman estimate_of_plot(const struct rho_plot *plot, uint32_t 
     must_succeed(rho_kalman_update_position(&estimate, &seen, (float)(v_max_mps * v_max_mps)),
                  "start");
     for (int i = 0; i < AXES && measures & RHO_MEASURES_VELOCITY; i++) {
-        if (rho_kalman_has_estimate_on_axis(&estimate, i)) {
+        if (rho_kalman_has_axis(&estimate, i)) {
             estimate.state[i + AXES] = velocity_mps[i];
             estimate.covariance[RHO_AT(i + AXES, i + AXES)] = plot->sigma_mps * plot->sigma_mps;
         }

@@ -7,7 +7,7 @@
 
 #include "base/common.h"
 #include "io/csv/columns.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/plot_reader.h"
 #include "picture/map_page_parts.h"
 
 struct bytes {
@@ -226,10 +226,10 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
     struct claims claims = collect_claims(data);
     uint32_t count = 0;
     if (data->num_plot_paths > 0) {
-        struct plot_scan_reader *reader =
+        struct plot_reader *reader =
             plot_reader_open_sensorless(data->plot_paths, data->num_plot_paths, parameters);
         const struct rho_scan *scan;
-        while ((scan = plot_scan_reader_next(reader)) != NULL) {
+        while ((scan = plot_reader_next(reader)) != NULL) {
             append_double(&time, seconds_since(scan->time_us, zero_us));
             append_little_endian_uint32(&first, count);
             for (uint32_t i = 0; i < scan->num_plots; i++) {
@@ -239,7 +239,7 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
             }
             count += scan->num_plots;
         }
-        plot_scan_reader_close(reader);
+        plot_reader_close(reader);
         warn_of_unmatched_claims(&claims);
     }
     append_little_endian_uint32(&first, count);

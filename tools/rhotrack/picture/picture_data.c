@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "io/csv/csv_table.h"
 #include "io/csv/measurement_row.h"
-#include "io/csv/table_columns_and_cells.h"
 #include "io/log/lcm_log.h"
-#include "io/log/log_messages_to_table.h"
 #include "io/log/log_scans.h"
+#include "io/log/log_table.h"
 #include "io/rows/trajectory_row.h"
-#include "io/scans/bearing_frame_reader.h"
+#include "io/scans/bearing_reader.h"
 #include "rhotrack/message.h"
 
 /* a first time at or beyond this is a clock's time: pictures then count from it */
@@ -191,8 +191,7 @@ static void add_rays_of_scan(struct plot_rays *rays, const struct rho_bearing_sc
 static void read_all_bearings(struct plot_rays *rays, char *const *paths, int num_paths,
                               const struct parameters *parameters)
 {
-    struct bearing_frame_reader *reader =
-        bearing_frame_reader_open(paths, num_paths, parameters, false);
+    struct bearing_reader *reader = bearing_reader_open(paths, num_paths, parameters, false);
     const struct rho_frame *frame;
     const struct frame_sensor *sensors = bearing_reader_sensors(reader, &rays->num_sensors);
     rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
@@ -202,13 +201,13 @@ static void read_all_bearings(struct plot_rays *rays, char *const *paths, int nu
                                                .y_m = (double)sensors[i].y_m};
     }
     rays->list = must_calloc(bearing_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
-    while ((frame = bearing_frame_reader_next(reader)) != NULL) {
+    while ((frame = bearing_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
             const struct rho_bearing_scan *scan = &frame->scans[i];
             add_rays_of_scan(rays, scan, parameters_range_max_m(parameters, scan->sensor_id));
         }
     }
-    bearing_frame_reader_close(reader);
+    bearing_reader_close(reader);
 }
 
 static int by_id_and_time(const void *a, const void *b)
@@ -290,7 +289,7 @@ struct picture_data picture_data_read(char *const *paths, int num_paths,
     for (int i = 0; i < num_paths; i++) {
         bool is_log = lcm_log_is_log(paths[i]);
         bool has_bearings = is_log ? (log_scans_kinds(paths[i]) & LOG_HAS_BEARINGS) != 0
-                                   : bearing_frame_reader_file_has_bearings(paths[i]);
+                                   : bearing_reader_is_bearings(paths[i]);
         if (has_bearings) {
             bearings[num_bearings++] = paths[i];
         }

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 #include "settings/parameters.h"
 
 #define PLOT_LEGEND_MAX 8 /* most tracks or targets that have an entry each in the legend */

@@ -35,7 +35,7 @@ static struct plot_radar *list_echo_sensors(const struct clutter_echo *echoes, s
         if (!find_sensor_by_id(sensors, *num_sensors, echoes[i].sensor_id)) {
             struct rho_sensor described;
 
-            parameters_to_sensor_or_defaults(parameters, echoes[i].sensor_id, &described);
+            parameters_sensor_or_default(parameters, echoes[i].sensor_id, &described);
             sensors = must_make_room_for_one(sensors, *num_sensors, &capacity, sizeof *sensors);
             sensors[(*num_sensors)++] = (struct plot_radar){.sensor_id = echoes[i].sensor_id,
                                                             .x_m = (double)described.x_m,

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/plot_reader.h"
 #include "picture/plan_view_map.h"
 #include "rhotrack/config.h"
 #include "rhotrack/detail/angle.h"
@@ -87,7 +87,7 @@ struct revolutions plot_parameter_space_read(const struct picture_data *data,
                  data->plot_paths[i]);
         }
     }
-    struct plot_scan_reader *reader =
+    struct plot_reader *reader =
         plot_reader_open_sensorless(data->plot_paths, data->num_plot_paths, parameters);
     struct revolutions revolutions = revolutions_read_last(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {
@@ -97,7 +97,7 @@ struct revolutions plot_parameter_space_read(const struct picture_data *data,
         fail(EXIT_USAGE, "plot parameter-space: the last %zu scans have no plots",
              revolutions.count);
     }
-    plot_scan_reader_close(reader);
+    plot_reader_close(reader);
     return revolutions;
 }
 

@@ -8,7 +8,7 @@
 
 #include "io/turns/merged_sectors.h"
 #include "picture/gnuplot_picture_file.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 /* The votes to be drawn, computed before the picture is begun so that errors leave no file. */
 struct plot_votes;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 
 /* largest rms distance of two radars' tracks of one target before biases are corrected */
 #define FIRST_GATE_M 3000.0

@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_REGISTER_EQUATIONS_H
 #define RHOTRACK_TOOL_REGISTER_EQUATIONS_H
 
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 
 #define SEGMENT_TERMS 3 /* coefficients of the parabola of each axis */
 #define SEGMENT_COEFFICIENTS (2 * SEGMENT_TERMS)

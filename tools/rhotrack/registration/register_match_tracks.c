@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 
 /* longest interval between two plots of a track in which its place is interpolated */
 #define GAP_MAX_S 35.0

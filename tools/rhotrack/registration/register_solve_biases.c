@@ -6,8 +6,8 @@
 
 #include "base/common.h"
 #include "registration/cholesky.h"
+#include "registration/register_data.h"
 #include "registration/register_equations.h"
-#include "registration/register_shared_data_and_plot_correction.h"
 
 /*
  * Prior sigmas of the biases, the largest biases that a sensor may have (types.h): they keep biases

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 
 #define TURN_RAD 6.283185307179586
 #define SAME_RAD 1e-4 /* azimuths nearer than this count as equal */

@@ -442,8 +442,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
  * Describes any sensor for the library; without parameters of its own it is at the origin, without
  * biases, and sees everything.
  */
-void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32_t sensor_id,
-                                      struct rho_sensor *sensor);
+void parameters_sensor_or_default(const struct parameters *parameters, int32_t sensor_id,
+                                  struct rho_sensor *sensor);
 
 /* The library's settings from the parameters, checked by parameters_check_together; exit 2. */
 struct rho_settings parameters_to_settings(const struct parameters *parameters);
@@ -468,8 +468,8 @@ void parameters_to_assembler(const struct parameters *parameters,
 /*
  * Updates the assembler's descriptions of sensors from changed parameters, while messages arrive.
  */
-void parameters_update_assembler_sensors(const struct parameters *parameters,
-                                         struct rho_scan_assembler *assembler);
+void parameters_update_assembler(const struct parameters *parameters,
+                                 struct rho_scan_assembler *assembler);
 
 /*
  * Assigns a zone's parameter; key: "N.name" with the zone's number N. Returns false and the reason

@@ -218,8 +218,8 @@ static void rotate_sector(struct rho_sensor *sensor, double turn_rad)
     }
 }
 
-void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32_t sensor_id,
-                                      struct rho_sensor *sensor)
+void parameters_sensor_or_default(const struct parameters *parameters, int32_t sensor_id,
+                                  struct rho_sensor *sensor)
 {
     const double *value = parameters->value;
     double range_max_m = is_parameter_set(parameters, PARAMETER_RANGE_MAX_M)
@@ -288,6 +288,6 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
         !(parameters->value[PARAMETER_RESOLUTION_AZIMUTH_RAD] > 0.0)) {
         return false;
     }
-    parameters_to_sensor_or_defaults(parameters, sensor_id, sensor);
+    parameters_sensor_or_default(parameters, sensor_id, sensor);
     return true;
 }

@@ -192,8 +192,8 @@ struct asterix_rules asterix_plot_rows_scan_rules(const struct parameters *param
     };
 }
 
-void asterix_set_and_report_default_origin(const char *path, const struct asterix_place *place,
-                                           struct parameters *parameters)
+void asterix_set_default_origin(const char *path, const struct asterix_place *place,
+                                struct parameters *parameters)
 {
     parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place->lat_deg);
     parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place->lon_deg);
@@ -204,7 +204,7 @@ void asterix_set_and_report_default_origin(const char *path, const struct asteri
             path, place->lat_deg, place->lon_deg, place->alt_m);
 }
 
-void asterix_plot_rows_report_left_out(const char *path, const struct asterix_counts *counts)
+void asterix_plot_rows_report(const char *path, const struct asterix_counts *counts)
 {
     const struct {
         uint64_t count;
@@ -392,7 +392,7 @@ static void report_at_end(const struct asterix_plot_rows *records)
     const struct asterix_counts *counts = asterix_scans_counts(records->scans);
 
     asterix_file_report_skipped(records->file);
-    asterix_plot_rows_report_left_out(records->path, counts);
+    asterix_plot_rows_report(records->path, counts);
     for (size_t i = 0; i < records->num_placeless; i++) {
         fprintf(stderr,
                 "rhotrack: %s: sensor %" PRId32

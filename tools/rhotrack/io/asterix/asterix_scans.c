@@ -63,7 +63,7 @@ void asterix_scans_close(struct asterix_scans *scans)
     free(scans);
 }
 
-void asterix_scans_set_reference_time(struct asterix_scans *scans, int64_t time_128)
+void asterix_scans_set_day(struct asterix_scans *scans, int64_t time_128)
 {
     scans->has_start = true;
     scans->start_128 = time_128;

@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_ASTERIX_TRACK_TABLE_H
 #define RHOTRACK_TOOL_ASTERIX_TRACK_TABLE_H
 
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 #include "settings/parameters.h"
 
 /* Whether the recording has tracks, and no radar records. */

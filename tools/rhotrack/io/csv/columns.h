@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 
 /*
  * Each column's name, in SI units and radians. --columns may name those of COLUMNS_NAMED, and the

@@ -373,7 +373,7 @@ static bool set_sensor_at_position_of_row(const struct row_reading *reading,
     row->has_sensor = parameters_to_sensor(reading->parameters, row->sensor_id, &row->sensor) ||
                       columns->in_file.at[COL_SENSOR_X_M] >= 0 ||
                       columns->in_file.at[COL_SENSOR_Z_M] >= 0;
-    parameters_to_sensor_or_defaults(reading->parameters, row->sensor_id, &row->sensor);
+    parameters_sensor_or_default(reading->parameters, row->sensor_id, &row->sensor);
     row->bias_us = rho_measurement_time_bias_us(&row->sensor);
     if (!geodetic_radar_frame(columns->geodetic, &reading->cells, row->sensor_id, &row->frame)) {
         return false;

@@ -11,9 +11,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "io/csv/csv_table.h"
 #include "io/csv/geodetic_columns.h"
 #include "io/csv/row_cells.h"
-#include "io/csv/table_columns_and_cells.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * table_stream: reads a CSV file row by row, in memory that does not grow with the file. Refusals
- * and messages are those of table_columns_and_cells.h; a row of more than TABLE_STREAM_ROW_BYTES is
+ * and messages are those of csv_table.h; a row of more than TABLE_STREAM_ROW_BYTES is
  * refused too.
  */
 #ifndef RHOTRACK_TOOL_TABLE_STREAM_H
 #define RHOTRACK_TOOL_TABLE_STREAM_H
 
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 
 #define TABLE_STREAM_ROW_BYTES                                                                     \
     (1u << 20) /* longest row; it limits how much an unclosed quotation mark takes */

@@ -240,7 +240,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     preview_scans(scans, regular_file_size_or_zero(path), keep_going);
     if (reports_faults) {
         const struct scan_losses losses =
-            out_of_sequence_counts_to_scan_losses(&scans->order, &scans->assembler->counters);
+            out_of_sequence_counts_losses(&scans->order, &scans->assembler->counters);
 
         lcm_log_report_skipped(scans->reader);
         report_assembler_faults(path, &scans->assembler->counters, &losses);

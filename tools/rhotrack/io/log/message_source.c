@@ -55,9 +55,8 @@ static void open_log_or_csv_input(struct input *input, const char *path,
     } else {
         rows_read_csv_or_asterix(&input->file, path, parameters, keep_going);
         rows_number_turns(&input->file, parameters);
-        rows_to_messages_group_into_scans(
-            &input->scans, &input->file,
-            llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
+        rows_to_messages_make_scans(&input->scans, &input->file,
+                                    llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     }
     advance_to_next_message(input);
     if (!input->has_event) {

@@ -335,8 +335,8 @@ static int by_due_time(const void *a, const void *b)
     return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
-void rows_to_messages_group_into_scans(struct rows_to_messages *scans, struct rows_file *file,
-                                       int64_t interval_us)
+void rows_to_messages_make_scans(struct rows_to_messages *scans, struct rows_file *file,
+                                 int64_t interval_us)
 {
     struct scan_grouping grouping = {.scans = scans,
                                      .file = file,

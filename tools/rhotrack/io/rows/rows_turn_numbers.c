@@ -24,7 +24,7 @@ static bool plot_place_relative_to_sensor(const struct rows_file *file, const st
     } else {
         struct rho_sensor sensor;
 
-        parameters_to_sensor_or_defaults(parameters, row->sensor_id, &sensor);
+        parameters_sensor_or_default(parameters, row->sensor_id, &sensor);
         place_m[0] = cells[rows_column_index(kind, COL_X_M)] - (double)sensor.x_m;
         place_m[1] = cells[rows_column_index(kind, COL_Y_M)] - (double)sensor.y_m;
     }

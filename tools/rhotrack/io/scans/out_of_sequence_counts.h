@@ -36,12 +36,12 @@ enum rho_status out_of_sequence_counts_take(struct out_of_sequence_counts *order
  * Counts whether a message that the assembler has taken was a late scan that was accepted; before:
  * the assembler's counters before the message.
  */
-void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
-                                         const struct rho_scan_assembler_counters *before,
-                                         const struct rho_scan_assembler *assembler);
+void out_of_sequence_counts_note(struct out_of_sequence_counts *order,
+                                 const struct rho_scan_assembler_counters *before,
+                                 const struct rho_scan_assembler *assembler);
 
 struct scan_losses
-out_of_sequence_counts_to_scan_losses(const struct out_of_sequence_counts *order,
-                                      const struct rho_scan_assembler_counters *counters);
+out_of_sequence_counts_losses(const struct out_of_sequence_counts *order,
+                              const struct rho_scan_assembler_counters *counters);
 
 #endif

@@ -24,7 +24,7 @@ struct scan_source_options {
 };
 
 /*
- * Opens a file; plot_scan_reader.h and bearing_frame_reader.h describe its content. Errors as
+ * Opens a file; plot_reader.h and bearing_reader.h describe its content. Errors as
  * `rhotrack: FILE:LINE: what is wrong`, exit 2. The path must outlive the source.
  */
 struct scan_source *scan_source_open(const char *path, const struct parameters *parameters,
@@ -36,7 +36,7 @@ bool scan_source_next(struct scan_source *source, struct sensor_scan *scan);
 /* Starts again at the beginning of a file of bearings. */
 void scan_source_rewind(struct scan_source *source);
 
-/* State of a followed file, as plot_scan_reader.h describes it. */
+/* State of a followed file, as plot_reader.h describes it. */
 bool scan_source_waits(const struct scan_source *source);
 const char *scan_source_why_not_followed(const struct scan_source *source);
 bool scan_source_is_mid_row(const struct scan_source *source);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/plot_reader.h"
 #include "rhotrack/detail/window.h"
 
 /* A sensor, and the place of its current turn in the list. */
@@ -70,7 +70,7 @@ static bool push_and_test_turn_continues(struct turning_sensor *turning,
         }
     }
     bare.num_plots = 0;
-    is_further = rho_window_is_next_sector_of_newest_scan(turning->window, &bare, sensor) != 0;
+    is_further = rho_window_continues_newest(turning->window, &bare, sensor) != 0;
     if (rho_window_push(turning->window, &bare, sensor, NULL, &left_unused) != RHO_OK) {
         fail(EXIT_USAGE, "sensor %" PRId32 ": the sector %g .. %g rad is not valid",
              scan->sensor_id, (double)scan->sector_from_rad, (double)scan->sector_to_rad);
@@ -172,14 +172,14 @@ static void extend_or_begin_turn_by_scan(struct reading *reading, const struct r
     }
 }
 
-struct revolutions revolutions_read_last(struct plot_scan_reader *reader, size_t max)
+struct revolutions revolutions_read_last(struct plot_reader *reader, size_t max)
 {
     struct reading reading = {.revolutions.max = max};
     const struct rho_scan *scan;
 
     reading.revolutions.list = must_calloc(max, sizeof *reading.revolutions.list);
-    while ((scan = plot_scan_reader_next(reader))) {
-        extend_or_begin_turn_by_scan(&reading, scan, plot_scan_reader_sensor(reader));
+    while ((scan = plot_reader_next(reader))) {
+        extend_or_begin_turn_by_scan(&reading, scan, plot_reader_sensor(reader));
     }
     for (size_t i = 0; i < reading.num_sensors; i++) {
         free(reading.sensors[i].window);

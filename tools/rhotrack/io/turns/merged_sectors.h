@@ -3,7 +3,7 @@
  * merged_sectors: the last scans of files as one batch, in which the sectors of one turn
  * are merged into one scan.
  *
- * The library's window (rho_window_is_next_sector_of_newest_scan) tells, for each sensor by itself,
+ * The library's window (rho_window_continues_newest) tells, for each sensor by itself,
  * which sectors form one turn. A turn has the time of its first sector, and its plots' offsets
  * count from there. A scan of the whole circle is a turn. A scan older than one before it of the
  * same sensor (files in the order of reception) is left out.
@@ -36,8 +36,8 @@ struct revolutions {
  * and out-of-sequence scans left out. Memory: the turns kept, and a struct rho_window for each
  * sensor that scans in sectors.
  */
-struct plot_scan_reader;
-struct revolutions revolutions_read_last(struct plot_scan_reader *reader, size_t max);
+struct plot_reader;
+struct revolutions revolutions_read_last(struct plot_reader *reader, size_t max);
 void revolutions_free(struct revolutions *revolutions);
 
 #endif
