@@ -265,7 +265,8 @@ static struct rho_kalman estimate_of_plot(const struct rho_plot *plot, uint32_t 
             estimate.covariance[RHO_AT(i + AXES, i + AXES)] = plot->sigma_mps * plot->sigma_mps;
         }
     }
-    must_succeed(rho_kalman_predict(&estimate, -1e-6f * (float)plot->offset_us, 0.0f), "start");
+    /* refused where the place would be too uncertain: then it is at the plot's own time */
+    (void)!rho_kalman_predict(&estimate, -1e-6f * (float)plot->offset_us, 0.0f);
     return estimate;
 }
 
@@ -299,6 +300,17 @@ static int start_or_restart(struct maintainer *maintainer, const struct rho_scan
 }
 
 /* Steps. */
+
+static void set_sensor(struct maintainer *maintainer, const struct rho_sensor *sensor)
+{
+    const enum rho_status status = rho_tracker_set_sensor(&maintainer->tracker, sensor);
+
+    if (status == RHO_ERROR_CAPACITY) {
+        fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
+             RHO_MAX_SENSORS);
+    }
+    must_succeed(status, "sensor");
+}
 
 /* Takes over the tracker's track: its status is that of the last look alone. */
 static void update_track(struct maintainer *maintainer, int row)
@@ -353,7 +365,7 @@ int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
         }
     }
     if (sensor) {
-        must_succeed(rho_tracker_set_sensor(&maintainer->tracker, sensor), "sensor");
+        set_sensor(maintainer, sensor);
     }
     if (maintainer->gate == MAINTAIN_BEST && maintainer->is_started) {
         set_clutter(maintainer, scan,
