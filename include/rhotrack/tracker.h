@@ -59,7 +59,7 @@
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/input_estimation.h"
 #include "rhotrack/detail/recurring_clutter_map.h"
-#include "rhotrack/detail/second_plots_and_duplicate_tracks.h"
+#include "rhotrack/detail/second_plots.h"
 #include "rhotrack/detail/track.h"
 #include "rhotrack/detail/window.h"
 #include "rhotrack/initiator.h"

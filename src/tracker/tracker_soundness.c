@@ -47,7 +47,7 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
 {
     return (!RHO_SECTORS || rho_retrodiction_is_sound(track)) &&
            (RHO_MAX_ECHOES == 0 ||
-            (rho_echoes_is_sound_track(track) && rho_second_plots_is_sound_track(track))) &&
+            (rho_echoes_is_sound_track(track) && rho_second_is_sound_track(track))) &&
            (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || track->is_frozen <= 1) &&
            track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&

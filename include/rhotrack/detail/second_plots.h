@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * second_plots_and_duplicate_tracks: how often a sensor makes two plots of one target, and how far
- * they lie apart.
+ * second_plots: how often a sensor makes two plots of one target, and how far they lie apart.
  *
  * Long targets, side lobes and plot extractors that split a blip give a second plot near the first.
  * Clutter explains such plots badly, as they come far more often, so that a second track would
@@ -17,8 +16,8 @@
  * two targets. Two targets that separate stay two, as their plots leave the learned distances.
  * src/DESIGN.md ("Second plots of one target") derives it.
  */
-#ifndef RHOTRACK_SECOND_PLOTS_AND_DUPLICATE_TRACKS_H
-#define RHOTRACK_SECOND_PLOTS_AND_DUPLICATE_TRACKS_H
+#ifndef RHOTRACK_SECOND_PLOTS_H
+#define RHOTRACK_SECOND_PLOTS_H
 
 #include <stdint.h>
 
