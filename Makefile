@@ -124,7 +124,7 @@ $(BUILD)/workstation/%.o: %.c Makefile
 
 # What tools/codegen writes is checked in, and must be what it would write.
 $(BUILD)/codegen.checked: $(wildcard lcm_types/* tools/codegen/*.py) include/rhotrack/message.h \
-                          src/wire/message_types.c src/wire/message_and_member_names.c
+                          src/wire/message_types.c src/wire/message_names.c
 	@mkdir -p $(@D) && tools/codegen/generate_lcm_codec.py --check && touch $@
 
 ## Write the LCM codec from lcm_types/
@@ -133,8 +133,8 @@ codegen:
 
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)
-vote_objects := $(foreach part,accumulator_geometry accumulator_row_votes_and_peaks \
-                               accumulator_branch_and_bound,%/src/papers/$(part).o)
+vote_objects := $(foreach part,accumulator_geometry accumulator_rows \
+                               accumulator_pruning,%/src/papers/$(part).o)
 $(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): override OPT := -O3
 endif
 
@@ -155,7 +155,7 @@ $(BUILD)/program/scenes.c: $(scenes) Makefile
 # it).
 page_folder := tools/rhotrack/picture/interactive_map_page
 $(BUILD)/program/page_parts.c: $(wildcard $(page_folder)/*) Makefile
-	@mkdir -p $(@D) && { echo '#include "picture/interactive_map_page_parts.h"'; \
+	@mkdir -p $(@D) && { echo '#include "picture/map_page_parts.h"'; \
 	  for part in licence:d3.LICENSE d3:d3.min.js html:page.html style:page.css script:page.js; do \
 	    echo "const char page_$${part%%:*}[] ="; \
 	    sed -e 's/[\\"?]/\\&/g' -e 's/.*/"&\\n"/' $(page_folder)/$${part#*:}; echo ';'; \
@@ -238,7 +238,7 @@ deb: packages
 docs: python
 	@tools/setup.sh docs
 	@rm -rf $(BUILD)/docs && \
-	    /usr/bin/python3 tools/docs/lay_out_sphinx_sources.py $(BUILD)/docs/source $(BUILD)
+	    /usr/bin/python3 tools/docs/sphinx_sources.py $(BUILD)/docs/source $(BUILD)
 	@PYTHONPATH=$(python_site) /usr/bin/python3 -m sphinx -q -n -W --keep-going -c tools/docs \
 	    -d $(BUILD)/docs/doctrees $(BUILD)/docs/source $(BUILD)/docs/html
 	@/usr/bin/python3 tools/docs/links.py $(BUILD)/docs/html
@@ -335,11 +335,11 @@ uninstall:
 # from end to end with the golden files, and the checks of the sources that take seconds. test-all
 # runs everything else behind it.
 quick_scripts := $(addprefix tests/integration/,papers_claims_gate.sh command_line.sh \
-                   documents_and_line_width.sh document_examples_gate.sh headers.sh layers.sh \
+                   documents_gate.sh document_examples_gate.sh headers.sh layers.sh \
                    security_attacks_have_tests.sh)
 quick_scripts := $(wildcard $(quick_scripts)) \
                  $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
-                 $(addprefix tools/gates/,layers.py tested.py library_needs_no_heap_or_stdio.sh \
+                 $(addprefix tools/gates/,layers.py tested.py no_heap.sh \
                    extract_example.sh)
 # What the embedded profile leaves out is tested in the other one.
 left_out := tracker/test_track_evidence bodies/test_body_extents \
@@ -534,7 +534,7 @@ layers: $(library) $(program) $(lab)
 
 ## Check that the library has no heap, no stdio, no double, no mutable globals
 poison: $(library)
-	@BUILD=$(BUILD) tools/gates/library_needs_no_heap_or_stdio.sh
+	@BUILD=$(BUILD) tools/gates/no_heap.sh
 
 ## The same in the objects for Cortex-M, Cortex-R and RISC-V, and no recursion, growing frame or
 ## call by a pointer
@@ -572,7 +572,7 @@ budget_opt = $(if $(filter command%,$(origin OPT)),$(OPT),-Os)
 ## Flash and RAM of RHO_CONFIG_FILE, by module, on a Cortex-M4F (CROSS= or CC=, CFLAGS=, OPT= for
 ## another processor)
 budget:
-	@BUILD=$(BUILD) tools/gates/print_configuration_flash_and_ram.py \
+	@BUILD=$(BUILD) tools/gates/configuration_sizes.py \
 	    --config='$(RHO_CONFIG_FILE)' --cc='$(budget_cc)' \
 	    --flags='$(strip $(budget_opt) $(budget_cpu) $(CFLAGS))'
 

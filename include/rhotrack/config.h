@@ -604,7 +604,7 @@
 
 /*
  * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts
- * (accumulator_peak_search.c, hough.c, initiator.c, tracker_setup.c). Embedded: initiator 66 KiB at
+ * (accumulator_search.c, hough.c, initiator.c, tracker_setup.c). Embedded: initiator 66 KiB at
  * most. A node also holds the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \

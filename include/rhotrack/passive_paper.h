@@ -203,7 +203,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_space(const struct rho_passive_
  * the matrix of the last search until the next frame is pushed.
  *   scan  index of the scan in the batch, 0 the oldest
  * Errors: NULL, STATE (not initialised), VALUE (no such scan or pair). Cost: rho_ghost_fill and
- * rho_ghost_prune_and_count_removed. Stack: 1 KB with 8 bearings a scan, 3 KB with 16.
+ * rho_ghost_prune. Stack: 1 KB with 8 bearings a scan, 3 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
                                                         const struct rho_passive_paper_pair *pair,

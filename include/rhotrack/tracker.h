@@ -59,7 +59,7 @@
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/input_estimation.h"
 #include "rhotrack/detail/recurring_clutter_map.h"
-#include "rhotrack/detail/second_plots_and_duplicate_tracks.h"
+#include "rhotrack/detail/second_plots.h"
 #include "rhotrack/detail/track.h"
 #include "rhotrack/detail/window.h"
 #include "rhotrack/initiator.h"
@@ -314,6 +314,7 @@ struct rho_tracker {
     int32_t start_mnat, confirm_mnat;
     /* mean per turn; a clutter density follows from it where no initiator measures one */
     float unclaimed_plots;
+    float clutter_per_m2;     /* stated clutter density; 0: none */
     float unclaimed_bearings; /* mean per scan of a passive sensor */
     struct rho_extent extent; /* rectangle that holds all valid plots so far */
     uint16_t num_sensors;     /* described sensors: the first rows of `sensors` */
@@ -439,6 +440,14 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
 RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker,
                                                          int32_t sensor_id);
 
+/*
+ * States the clutter density of the next scans, plots a m^2, where no initiator measures it: that
+ * of a beam which follows its target does not follow from the plots of all scans. Clutter counts as
+ * uniform over 20 km of height and all velocities up to v_max. 0: it is measured, as before a call.
+ * Errors: NULL, STATE, VALUE (not 0 .. 1e30). Constant cost.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_set_clutter(struct rho_tracker *tracker, float per_m2);
+
 /* Noise, detection probability, notch and resolution of a sensor, as learned and used. */
 struct rho_tracker_known {
     float range_factor, cross_factor; /* factors on the stated sigmas of its plots */
@@ -546,7 +555,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *track
  * made from hits >= 1 scans: from bearings, or by a filter of the caller. sensor_id is one of the
  * sensors of these scans. Errors: NULL, STATE, and those of rho_track_start_estimate; VALUE for a
  * score at which tracks end, a place or speed beyond its limit, and a covariance that is none
- * (variances outside RHO_KALMAN_VARIANCE_MIN .. MAX, not positive definite, or of closed axes).
+ * (variances outside RHO_VARIANCE_MIN .. MAX, not positive definite, or of closed axes).
  * Stack: 2.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,

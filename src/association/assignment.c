@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define ASSIGNMENT_MAGIC 0x41534e31u /* "ASN1" */
+enum { ASSIGNMENT_MAGIC = 0x41534e31 }; /* "ASN1" */
 #define DISTANCE_NONE INT32_MAX
 
 /*
@@ -36,153 +36,77 @@ static int is_costlier(const struct rho_assignment_pair *one,
 }
 
 /* Index of a column among a row's pairs, or the number of pairs where the row does not hold it. */
-static int pair_index_or_num_pairs(const struct rho_assignment *a, int row, int column)
+static int pair_index(const struct rho_assignment *a, int row, int column)
 {
     const int num_pairs = a->num_pairs[row];
-    int i;
-
-    for (i = 0; i < num_pairs; ++i) {
-        if (a->pairs[row][i].column == column) {
-            break;
-        }
+    int i = 0;
+    while (i < num_pairs && a->pairs[row][i].column != column) {
+        ++i;
     }
     return i;
-}
-
-/* Index of the costliest of the RHO_MAX_GATE_PLOTS pairs of a full row. */
-static int costliest_pair_of_full_row(const struct rho_assignment_pair *pairs)
-{
-    int i, costliest = 0;
-
-    for (i = 1; i < RHO_MAX_GATE_PLOTS; ++i) {
-        if (is_costlier(&pairs[i], &pairs[costliest])) {
-            costliest = i;
-        }
-    }
-    return costliest;
-}
-
-/* Drops the costliest of a full row's pairs and the new pair, and counts it. */
-static void keep_cheapest_count_dropped(struct rho_assignment *a, int row,
-                                        struct rho_assignment_pair pair)
-{
-    struct rho_assignment_pair *costliest =
-        &a->pairs[row][costliest_pair_of_full_row(a->pairs[row])];
-
-    if (is_costlier(costliest, &pair)) {
-        *costliest = pair;
-    }
-    if (a->pairs_dropped < UINT32_MAX) {
-        ++a->pairs_dropped;
-    }
-}
-
-/* Sets a column's distance and the row it was reached from; a new column joins the queue. */
-static void label_and_queue_column(struct rho_assignment *a, struct search *s, int column,
-                                   int from_row, int32_t distance)
-{
-    if (a->column_distance[column] == DISTANCE_NONE) {
-        a->column_queue[s->num_labelled++] = (int16_t)column;
-    }
-    a->column_distance[column] = distance;
-    a->column_from[column] = (int16_t)from_row;
 }
 
 /*
  * Labels the columns that can be reached from a row with their distances, and the row as an end
  * that gives up its column. price_less_distance: the row's price less its distance.
  */
-static void label_columns_of_row_and_offer_path_end(struct rho_assignment *a, struct search *s,
-                                                    int row, int32_t price_less_distance)
+static void label_columns(struct rho_assignment *a, struct search *s, int row,
+                          int32_t price_less_distance)
 {
-    const int num_pairs = a->num_pairs[row];
-    int i;
-
     if (-price_less_distance < s->end_distance) {
         s->end_distance = -price_less_distance;
         s->end_row = (int16_t)row;
     }
-    for (i = 0; i < num_pairs; ++i) {
+    for (int i = 0; i < a->num_pairs[row]; ++i) {
         const int column = a->pairs[row][i].column;
         const int32_t distance =
             a->pairs[row][i].cost - a->column_price[column] - price_less_distance;
-
-        /* Columns at least as far as the end never become part of the path. */
+        /* columns at least as far as the end never become part of the path */
         if (distance < a->column_distance[column] && distance < s->end_distance) {
-            label_and_queue_column(a, s, column, row, distance);
+            if (a->column_distance[column] == DISTANCE_NONE) {
+                a->column_queue[s->num_labelled++] = (int16_t)column;
+            }
+            a->column_distance[column] = distance;
+            a->column_from[column] = (int16_t)row;
         }
     }
-}
-
-/*
- * Moves the nearest of the labelled columns that were not scanned, of equals the lowest, to the
- * head of the queue's unscanned part. Returns 0 if none is nearer than the end.
- */
-static int try_move_nearest_unscanned_to_queue_head(struct rho_assignment *a,
-                                                    const struct search *s)
-{
-    int16_t *queue = a->column_queue;
-    int32_t least = s->end_distance;
-    int i, nearest = -1;
-    int16_t column;
-
-    for (i = s->num_scanned; i < s->num_labelled; ++i) {
-        const int32_t distance = a->column_distance[queue[i]];
-
-        if (distance < least || (nearest >= 0 && distance == least && queue[i] < queue[nearest])) {
-            least = distance;
-            nearest = i;
-        }
-    }
-    if (nearest < 0) {
-        return 0;
-    }
-    column = queue[nearest];
-    queue[nearest] = queue[s->num_scanned];
-    queue[s->num_scanned] = column;
-    return 1;
 }
 
 /*
  * Finds the end of the shortest augmenting path from a row: s->end_column, or where that is NONE,
  * s->end_row, which gives up its column.
  */
-static void find_shortest_path_end(struct rho_assignment *a, struct search *s, int row)
+static void find_path_end(struct rho_assignment *a, struct search *s, int row)
 {
-    label_columns_of_row_and_offer_path_end(a, s, row, 0);
-    /* at most num_columns times: each column is scanned once */
-    while (try_move_nearest_unscanned_to_queue_head(a, s)) {
-        const int16_t column = a->column_queue[s->num_scanned];
-        const int16_t owner = a->column_row[column];
-        int32_t price;
-
+    int16_t *queue = a->column_queue;
+    label_columns(a, s, row, 0);
+    for (;;) { /* at most num_columns times: each column is scanned once */
+        /* the nearest of the labelled columns that were not scanned, of equals the lowest */
+        int32_t least = s->end_distance;
+        int nearest = -1;
+        for (int i = s->num_scanned; i < s->num_labelled; ++i) {
+            const int32_t distance = a->column_distance[queue[i]];
+            if (distance < least ||
+                (nearest >= 0 && distance == least && queue[i] < queue[nearest])) {
+                least = distance;
+                nearest = i;
+            }
+        }
+        if (nearest < 0) {
+            return; /* none is nearer than the end */
+        }
+        const int16_t column = queue[nearest], owner = a->column_row[column];
+        queue[nearest] = queue[s->num_scanned];
+        queue[s->num_scanned] = column;
         if (owner == RHO_ASSIGNMENT_NONE) {
             s->end_column = column;
             s->end_distance = a->column_distance[column];
             return;
         }
         ++s->num_scanned;
-        price = a->pairs[owner][pair_index_or_num_pairs(a, owner, column)].cost -
-                a->column_price[column];
-        label_columns_of_row_and_offer_path_end(a, s, owner, price - a->column_distance[column]);
-    }
-}
-
-/*
- * Updates the prices of scanned columns so that the reduced costs of their rows stay at least 0,
- * and clears all labels.
- */
-static void update_prices_and_clear_labels(struct rho_assignment *a, const struct search *s)
-{
-    int i;
-
-    for (i = 0; i < s->num_labelled; ++i) {
-        const int16_t column = a->column_queue[i];
-
-        if (i < s->num_scanned) {
-            a->column_price[column] += a->column_distance[column] - s->end_distance;
-        }
-        a->column_distance[column] = DISTANCE_NONE;
+        const int32_t price =
+            a->pairs[owner][pair_index(a, owner, column)].cost - a->column_price[column];
+        label_columns(a, s, owner, price - a->column_distance[column]);
     }
 }
 
@@ -190,11 +114,10 @@ static void update_prices_and_clear_labels(struct rho_assignment *a, const struc
  * Walks back along the path from its end to the row that was searched for: each row takes the
  * column that was reached from it.
  */
-static void augment_along_path(struct rho_assignment *a, const struct search *s, int first_row)
+static void augment_path(struct rho_assignment *a, const struct search *s, int first_row)
 {
     int16_t column = s->end_column;
     int16_t row = s->end_row;
-
     if (column == RHO_ASSIGNMENT_NONE) {
         column = a->row_column[row];
         a->row_column[row] = RHO_ASSIGNMENT_NONE;
@@ -212,14 +135,12 @@ static void augment_along_path(struct rho_assignment *a, const struct search *s,
     } while (row != first_row);
 }
 
-static void clear_answer_and_prices(struct rho_assignment *a)
+static void clear_answer(struct rho_assignment *a)
 {
-    int i;
-
-    for (i = 0; i < a->num_rows; ++i) {
+    for (int i = 0; i < a->num_rows; ++i) {
         a->row_column[i] = RHO_ASSIGNMENT_NONE;
     }
-    for (i = 0; i < a->num_columns; ++i) {
+    for (int i = 0; i < a->num_columns; ++i) {
         a->column_row[i] = RHO_ASSIGNMENT_NONE;
         a->column_price[i] = 0;
         a->column_distance[i] = DISTANCE_NONE;
@@ -255,7 +176,7 @@ enum rho_status rho_assignment_begin(struct rho_assignment *assignment, unsigned
     assignment->num_columns = (uint16_t)num_columns;
     assignment->pairs_dropped = 0;
     memset(assignment->num_pairs, 0, num_rows * sizeof assignment->num_pairs[0]);
-    clear_answer_and_prices(assignment);
+    clear_answer(assignment);
     return RHO_OK;
 }
 
@@ -263,8 +184,6 @@ enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, uns
                                           unsigned column, int32_t cost)
 {
     const struct rho_assignment_pair pair = {.cost = cost, .column = (int16_t)column};
-    uint16_t *num_pairs;
-
     if (assignment == NULL) {
         return RHO_ERROR_NULL;
     }
@@ -275,8 +194,8 @@ enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, uns
         cost < -RHO_ASSIGNMENT_COST_MAX || cost > RHO_ASSIGNMENT_COST_MAX) {
         return RHO_ERROR_VALUE;
     }
-    num_pairs = &assignment->num_pairs[row];
-    if (pair_index_or_num_pairs(assignment, (int)row, (int)column) < *num_pairs) {
+    uint16_t *num_pairs = &assignment->num_pairs[row];
+    if (pair_index(assignment, (int)row, (int)column) < *num_pairs) {
         return RHO_ERROR_VALUE;
     }
     if (cost >= 0) {
@@ -284,26 +203,40 @@ enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, uns
     }
     if (*num_pairs < RHO_MAX_GATE_PLOTS) {
         assignment->pairs[row][(*num_pairs)++] = pair;
-    } else {
-        keep_cheapest_count_dropped(assignment, (int)row, pair);
+        return RHO_OK;
     }
+    struct rho_assignment_pair *costliest = assignment->pairs[row];
+    for (int i = 1; i < RHO_MAX_GATE_PLOTS; ++i) {
+        if (is_costlier(&assignment->pairs[row][i], costliest)) {
+            costliest = &assignment->pairs[row][i];
+        }
+    }
+    if (is_costlier(costliest, &pair)) {
+        *costliest = pair;
+    }
+    assignment->pairs_dropped = rho_count(assignment->pairs_dropped, 1);
     return RHO_OK;
 }
 
 void rho_assignment_solve(struct rho_assignment *assignment)
 {
-    int row;
-
     if (!rho_assignment_is_ready(assignment)) {
         return;
     }
-    clear_answer_and_prices(assignment);
-    for (row = 0; row < assignment->num_rows; ++row) {
+    clear_answer(assignment);
+    for (int row = 0; row < assignment->num_rows; ++row) {
         struct search s = {.end_distance = DISTANCE_NONE, .end_column = RHO_ASSIGNMENT_NONE};
-
-        find_shortest_path_end(assignment, &s, row);
-        update_prices_and_clear_labels(assignment, &s);
-        augment_along_path(assignment, &s, row);
+        find_path_end(assignment, &s, row);
+        /* prices of scanned columns keep the reduced costs of their rows at 0 at least */
+        for (int i = 0; i < s.num_labelled; ++i) {
+            const int16_t column = assignment->column_queue[i];
+            if (i < s.num_scanned) {
+                assignment->column_price[column] +=
+                    assignment->column_distance[column] - s.end_distance;
+            }
+            assignment->column_distance[column] = DISTANCE_NONE;
+        }
+        augment_path(assignment, &s, row);
     }
 }
 

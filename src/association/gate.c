@@ -6,16 +6,14 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 
-#define DIMENSIONS_MAX (RHO_Z + 2) /* x, y, z and the range rate */
-#define BOX_MARGIN 1.001f          /* factor on the box's half widths: more than rounding errors */
+enum { DIMENSIONS_MAX = RHO_Z + 2 }; /* x, y, z and the range rate */
 
 /* Predicts the range rate of an estimate: it holds for all plots without an own time. */
 static void predict_range_rate(const struct rho_kalman *at, const struct rho_sensor *sensor,
                                int has_z, struct rho_gate_rate *rate)
 {
     float row[RHO_KALMAN_STATES], projected[RHO_KALMAN_STATES];
-    rate->is_known =
-        rho_measurement_predict_range_rate(at->state, sensor, has_z, row, &rate->rate_mps);
+    rate->is_known = rho_measurement_predict_rate(at->state, sensor, has_z, row, &rate->rate_mps);
     if (rate->is_known) {
         rate->variance = rho_linalg_project6(at->covariance, row, projected);
         for (int i = 0; i < 3; i++) {
@@ -30,7 +28,7 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
     gate->predicted = *predicted;
     gate->noise_density = noise_density;
     gate->sensor = sensor;
-    gate->has_z = rho_kalman_has_estimate_on_axis(predicted, 2);
+    gate->has_z = rho_kalman_has_axis(predicted, 2);
     gate->measures = measures;
     if (measures & RHO_MEASURES_RANGE_RATE) {
         predict_range_rate(predicted, sensor, gate->has_z, &gate->rate);
@@ -48,8 +46,9 @@ void rho_gate_box(const struct rho_gate *gate, float sigma_max_m, float offset_m
         float spread_m2 =
             p[RHO_AT(axis, axis)] + 2.0f * offset_max_s * (mixed < 0.0f ? -mixed : mixed) +
             offset_max_s * offset_max_s * (p[RHO_AT(axis + 3, axis + 3)] + noise * (1.0f / 3.0f));
+        /* a margin of more than rounding errors */
         half_widths_m[axis] =
-            BOX_MARGIN * rho_sqrt(RHO_GATE_CHI2_4D * (spread_m2 + sigma_max_m * sigma_max_m)) +
+            1.001f * rho_sqrt(RHO_GATE_CHI2_4D * (spread_m2 + sigma_max_m * sigma_max_m)) +
             offset_max_s * (speed_mps < 0.0f ? -speed_mps : speed_mps);
     }
 }
@@ -73,114 +72,57 @@ static int is_outside_on_axis(const struct rho_gate *gate, int axis, float place
     return !(d_m * d_m <= RHO_GATE_CHI2_4D * (spread_m2 + variance_m2));
 }
 
-/* Innovation d and its covariance s: x, y, then z and the range rate where they are tested. */
-struct innovation {
-    int num;
-    float d[DIMENSIONS_MAX];
-    float s[RHO_TRIANGLE(DIMENSIONS_MAX)];
-};
-
-/* Sets the innovation of the first num axes of a position, and its covariance. */
-static void set_position_innovation(const struct rho_kalman *at, const struct rho_measurement *seen,
-                                    int num, struct innovation *innovation)
+/*
+ * Tests position and range rate of a plot against an estimate at the plot's time. Fills *result,
+ * and returns 1 where the NIS is within the limit for the number of dimensions.
+ */
+static int test_plot(const struct rho_gate *gate, const struct rho_kalman *at,
+                     const struct rho_gate_rate *rate, const struct rho_plot *plot,
+                     struct rho_gate_result *result)
 {
-    float noise[RHO_TRIANGLE(3)];
-    rho_measurement_covariance(seen, noise);
-    innovation->num = num;
+    struct rho_measurement seen;
+    /* innovation d and its covariance s: x, y, then z and the range rate where they are tested */
+    float d[DIMENSIONS_MAX], s[RHO_TRIANGLE(DIMENSIONS_MAX)], noise[RHO_TRIANGLE(3)];
+    rho_measurement_from_plot(plot, gate->measures, gate->sensor, &seen);
+    rho_measurement_covariance(&seen, noise);
+    result->has_z = gate->has_z && seen.has_z;
+    int num = result->has_z ? 3 : 2;
     for (int i = 0; i < num; i++) {
-        innovation->d[i] = seen->place_m[i] - at->state[i];
+        d[i] = seen.place_m[i] - at->state[i];
     }
     /* the first rows of the packed triangle are the position's covariance */
     for (int k = 0; k < RHO_TRIANGLE(num); k++) {
-        innovation->s[k] = at->covariance[k] + noise[k];
+        s[k] = at->covariance[k] + noise[k];
     }
-}
-
-/*
- * Appends a range rate's innovation, which is correlated with the position's. Returns 0 where the
- * prediction has no range rate.
- */
-static int append_range_rate_if_predicted(const struct rho_gate_rate *rate,
-                                          const struct rho_plot *plot,
-                                          struct innovation *innovation)
-{
-    int n = innovation->num;
-    if (!rate->is_known) {
-        return 0;
+    result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 && rate->is_known;
+    if (result->has_range_rate) { /* it is correlated with the position */
+        for (int i = 0; i < num; i++) {
+            s[RHO_AT(num, i)] = rate->covariance[i];
+        }
+        s[RHO_AT(num, num)] =
+            rate->variance + plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
+        d[num] = plot->range_rate_mps - rate->rate_mps;
+        result->has_range_rate = rho_measurement_unfold_rate(gate->sensor, num + 1, s, d);
+        num += result->has_range_rate;
     }
-    for (int i = 0; i < n; i++) {
-        innovation->s[RHO_AT(n, i)] = rate->covariance[i];
+    if (num == 2) {
+        return rho_linalg_nis2(s, d, &result->distance2, &result->log_det) == RHO_OK &&
+               result->distance2 <= RHO_GATE_CHI2_2D;
     }
-    innovation->s[RHO_AT(n, n)] =
-        rate->variance + plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
-    innovation->d[n] = plot->range_rate_mps - rate->rate_mps;
-    innovation->num = n + 1;
-    return 1;
-}
-
-/* Tests a position with height and a range rate, by the Cholesky factor. */
-static int test_four_dimensions(struct innovation *innovation, struct rho_gate_result *result)
-{
-    if (rho_linalg_cholesky(4, innovation->s, innovation->s) != RHO_OK) {
-        return 0;
-    }
-    rho_linalg_forward(4, innovation->s, innovation->d);
-    result->distance2 = 0.0f;
-    for (int i = 0; i < 4; i++) {
-        result->distance2 += innovation->d[i] * innovation->d[i];
-    }
-    result->log_det = rho_linalg_log_determinant(4, innovation->s);
-    return result->distance2 <= RHO_GATE_CHI2_4D;
-}
-
-/* Fills *result, and returns 1 where the NIS is within the limit for the number of dimensions. */
-static int is_innovation_in_gate(struct innovation *innovation, struct rho_gate_result *result)
-{
-    const float *s = innovation->s, *d = innovation->d;
-    if (innovation->num == 4) {
-        return test_four_dimensions(innovation, result);
-    }
-    if (innovation->num == 3) {
+    if (num == 3) {
         return rho_linalg_nis3(s, d, &result->distance2, &result->log_det) == RHO_OK &&
                result->distance2 <= RHO_GATE_CHI2_3D;
     }
-    return rho_linalg_nis2(s, d, &result->distance2, &result->log_det) == RHO_OK &&
-           result->distance2 <= RHO_GATE_CHI2_2D;
-}
-
-/* Tests position and range rate of a plot against an estimate at the plot's time. */
-static int is_plot_in_gate_of_estimate(const struct rho_gate *gate, const struct rho_kalman *at,
-                                       const struct rho_gate_rate *rate,
-                                       const struct rho_plot *plot, struct rho_gate_result *result)
-{
-    struct rho_measurement seen;
-    struct innovation innovation;
-    rho_measurement_from_plot(plot, gate->measures, gate->sensor, &seen);
-    result->has_z = gate->has_z && seen.has_z;
-    set_position_innovation(at, &seen, result->has_z ? 3 : 2, &innovation);
-    result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 &&
-                             append_range_rate_if_predicted(rate, plot, &innovation);
-    if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
-                                                                     innovation.s, innovation.d)) {
-        result->has_range_rate = 0;
-        innovation.num--;
-    }
-    return is_innovation_in_gate(&innovation, result);
-}
-
-/* Tests a plot at its own time, to which the estimate is predicted. */
-static int test_at_own_time(const struct rho_gate *gate, float offset_s,
-                            const struct rho_plot *plot, struct rho_gate_result *result)
-{
-    struct rho_kalman at = gate->predicted;
-    struct rho_gate_rate rate;
-    if (rho_kalman_predict(&at, offset_s, gate->noise_density) != RHO_OK) {
+    if (rho_linalg_cholesky(num, s, s) != RHO_OK) {
         return 0;
     }
-    if (gate->measures & RHO_MEASURES_RANGE_RATE) {
-        predict_range_rate(&at, gate->sensor, gate->has_z, &rate);
+    rho_linalg_forward(num, s, d);
+    result->distance2 = 0.0f;
+    for (int i = 0; i < num; i++) {
+        result->distance2 += d[i] * d[i];
     }
-    return is_plot_in_gate_of_estimate(gate, &at, &rate, plot, result);
+    result->log_det = rho_linalg_log_determinant(num, s);
+    return result->distance2 <= RHO_GATE_CHI2_4D;
 }
 
 int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
@@ -194,14 +136,23 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
     if ((gate->measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m;
     }
-    sigma_m *= rho_measurement_sigma_factor_at_least_one(gate->sensor);
+    sigma_m *= rho_measurement_factor_max(gate->sensor);
     if (is_outside_on_axis(gate, 0, plot->x_m, offset_s, sigma_m * sigma_m) ||
         is_outside_on_axis(gate, 1, plot->y_m, offset_s, sigma_m * sigma_m)) {
         return 0;
     }
-    return plot->offset_us == 0
-               ? is_plot_in_gate_of_estimate(gate, &gate->predicted, &gate->rate, plot, result)
-               : test_at_own_time(gate, offset_s, plot, result);
+    if (plot->offset_us == 0) {
+        return test_plot(gate, &gate->predicted, &gate->rate, plot, result);
+    }
+    struct rho_kalman at = gate->predicted; /* at the plot's own time */
+    struct rho_gate_rate rate;
+    if (rho_kalman_predict(&at, offset_s, gate->noise_density) != RHO_OK) {
+        return 0;
+    }
+    if (gate->measures & RHO_MEASURES_RANGE_RATE) {
+        predict_range_rate(&at, gate->sensor, gate->has_z, &rate);
+    }
+    return test_plot(gate, &at, &rate, plot, result);
 }
 
 static int test_bearing(const struct rho_kalman *at, const struct rho_bearing *bearing, float x_m,

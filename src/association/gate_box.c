@@ -1,21 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * gate_box: the box in space that holds the gates of all hypotheses of a track; plots outside of it
- * need not be scored.
- */
-#include "hypotheses_nodes_filters_and_weights.h"
+/* gate_box: the box that holds the gates of all hypotheses of a track (hypotheses.h). */
+#include "hypotheses_pool.h"
 #include "rhotrack/detail/approx.h"
-
-/* Square root of RHO_IMM_GATE: largest distance of a plot in the gate, in standard deviations. */
-#define GATE_SIGMAS 5.4772256f
 
 struct element_span {
     float min, max, variance_max;
 };
 
 /* Extends the range of values by one value; the span's variance is the largest of all. */
-static inline void extend_span_and_max_variance(struct element_span *span, float value,
-                                                float variance)
+static inline void extend_span(struct element_span *span, float value, float variance)
 {
     span->min = value < span->min ? value : span->min;
     span->max = value > span->max ? value : span->max;
@@ -26,17 +19,16 @@ static inline void extend_span_and_max_variance(struct element_span *span, float
  * Range of values and largest variance of one element of the state, over all hypotheses of a slot
  * and both models.
  */
-static struct element_span span_of_state_element_over_hypotheses(const struct rho_hypotheses *pool,
-                                                                 uint16_t slot, int element)
+static struct element_span span_of_element(const struct rho_hypotheses *pool, uint16_t slot,
+                                           int element)
 {
     const int variance = RHO_AT(element, element);
     struct element_span span = {1e30f, -1e30f, 0.0f};
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        extend_span_and_max_variance(&span, imm->state[element], imm->covariance[variance]);
+        extend_span(&span, imm->state[element], imm->covariance[variance]);
         if (element < RHO_KALMAN_STATES) {
-            extend_span_and_max_variance(&span, imm->steady.state[element],
-                                         imm->steady.covariance[variance]);
+            extend_span(&span, imm->steady.state[element], imm->steady.covariance[variance]);
         }
     }
     return span;
@@ -45,47 +37,49 @@ static struct element_span span_of_state_element_over_hypotheses(const struct rh
 /* Largest distance of a plot in the gate from an estimate with the span's largest variance. */
 static float gate_half_width(const struct element_span *span)
 {
-    return GATE_SIGMAS * rho_sqrt(span->variance_max);
+    return RHO_IMM_GATE_SIGMAS * rho_sqrt(span->variance_max);
 }
 
 /*
  * Largest magnitude of three elements of the state, from `first` on, on any axis, with its
  * uncertainty.
  */
-static float largest_gated_magnitude_of_three_elements(const struct rho_hypotheses *pool,
-                                                       uint16_t slot, int first)
+static float largest_magnitude(const struct rho_hypotheses *pool, uint16_t slot, int first)
 {
     float most = 0.0f;
     for (int axis = 0; axis < 3; axis++) {
-        const struct element_span span =
-            span_of_state_element_over_hypotheses(pool, slot, first + axis);
+        const struct element_span span = span_of_element(pool, slot, first + axis);
         const float one = (span.max > -span.min ? span.max : -span.min) + gate_half_width(&span);
         most = one > most ? one : most;
     }
     return most;
 }
 
-static int do_all_hypotheses_have_height(const struct rho_hypotheses *pool, uint16_t slot)
+void rho_hypotheses_gate_box(struct rho_hypotheses *pool, uint16_t slot,
+                             struct rho_hypotheses_box *box)
 {
-    int have = 1;
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        have &= pool->nodes[pool->node_of[slot][i]].imm.covariance[RHO_AT(2, 2)] > 0.0f;
+    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+        return;
     }
-    return have;
-}
-
-/* Fills the box with the extent of all hypotheses' gates, for a plot without noise. */
-static void fill_box_around_gates(const struct rho_hypotheses *pool, uint16_t slot,
-                                  struct rho_hypotheses_box *box)
-{
-    const struct element_span x = span_of_state_element_over_hypotheses(pool, slot, 0),
-                              y = span_of_state_element_over_hypotheses(pool, slot, 1);
+    int have_height = 1;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        at->num_candidates = 0;
+        have_height &= at->imm.covariance[RHO_AT(2, 2)] > 0.0f;
+    }
+    /* gates are of no slot: the estimates have moved since */
+    pool->gate_slot = RHO_HYPOTHESES_SLOTS;
+    if (!box) {
+        return;
+    }
+    const struct element_span x = span_of_element(pool, slot, 0),
+                              y = span_of_element(pool, slot, 1);
     const float x_m = gate_half_width(&x), y_m = gate_half_width(&y);
     /* no limits of z: a hypothesis without a height ignores the height of a plot */
     struct element_span z = {0.0f, 0.0f, 0.0f};
     float z_m = 1e30f;
-    if (do_all_hypotheses_have_height(pool, slot)) {
-        z = span_of_state_element_over_hypotheses(pool, slot, 2);
+    if (have_height) {
+        z = span_of_element(pool, slot, 2);
         z_m = gate_half_width(&z);
     }
     *box = (struct rho_hypotheses_box){
@@ -101,52 +95,25 @@ static void fill_box_around_gates(const struct rho_hypotheses *pool, uint16_t sl
     };
 }
 
-void rho_hypotheses_clear_candidates_get_gate_box(struct rho_hypotheses *pool, uint16_t slot,
-                                                  struct rho_hypotheses_box *box)
+float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t slot,
+                                  struct rho_hypotheses_box *box, float sigma_max_m,
+                                  float offset_max_s)
 {
-    if (!pool || !rho_hypotheses_has_any_in_slot(pool, slot)) {
-        return;
+    const float slack_m = RHO_IMM_GATE_SIGMAS * sigma_max_m, t_s = offset_max_s;
+    if (!(t_s > 0.0f)) {
+        return slack_m;
     }
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        pool->nodes[pool->node_of[slot][i]].num_candidates = 0;
-    }
-    /* gates are of no slot: the estimates have moved since */
-    pool->gate_slot = RHO_HYPOTHESES_SLOTS;
-    if (box) {
-        fill_box_around_gates(pool, slot, box);
-    }
-}
-
-/*
- * Largest distance that a target may move in t_s, the time to a plot's own time, by its speed and
- * acceleration and by process noise. Fills the box's limits of speed and acceleration if they are
- * unset.
- */
-static float largest_distance_target_moves_m(const struct rho_hypotheses *pool, uint16_t slot,
-                                             struct rho_hypotheses_box *box, float t_s)
-{
+    /* a target moves by its speed and acceleration, and by process noise */
     const struct rho_imm_model *model = &pool->model;
     const float noise_m2 =
         t_s * t_s * t_s *
         (model->quiet_density * (1.0f / 3.0f) + model->drive_density * t_s * t_s * (1.0f / 20.0f));
     if (box->speed_max_mps < 0.0f) {
-        box->speed_max_mps =
-            largest_gated_magnitude_of_three_elements(pool, slot, RHO_KALMAN_STATES - 3);
-        box->accel_max_mps2 =
-            largest_gated_magnitude_of_three_elements(pool, slot, RHO_KALMAN_STATES);
+        box->speed_max_mps = largest_magnitude(pool, slot, RHO_KALMAN_STATES - 3);
+        box->accel_max_mps2 = largest_magnitude(pool, slot, RHO_KALMAN_STATES);
     }
-    return t_s * (box->speed_max_mps + 0.5f * t_s * box->accel_max_mps2) +
-           GATE_SIGMAS * rho_sqrt(noise_m2);
-}
-
-float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t slot,
-                                  struct rho_hypotheses_box *box, float sigma_max_m,
-                                  float offset_max_s)
-{
-    const float slack_m = GATE_SIGMAS * sigma_max_m;
-    return offset_max_s > 0.0f
-               ? slack_m + largest_distance_target_moves_m(pool, slot, box, offset_max_s)
-               : slack_m;
+    return slack_m + (t_s * (box->speed_max_mps + 0.5f * t_s * box->accel_max_mps2) +
+                      RHO_IMM_GATE_SIGMAS * rho_sqrt(noise_m2));
 }
 
 int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
@@ -157,9 +124,13 @@ int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* at high elevation the noise across is partly horizontal */
     }
-    const float slack_m = rho_hypotheses_box_margin_m(pool, slot, box, sigma_m * box->sigma_factor,
-                                                      (float)plot->offset_us *
-                                                          (plot->offset_us < 0 ? -1e-6f : 1e-6f));
+    sigma_m *= box->sigma_factor;
+    float slack_m = RHO_IMM_GATE_SIGMAS * sigma_m; /* the margin of a plot without an own time */
+    if (plot->offset_us != 0) {
+        slack_m = rho_hypotheses_box_margin_m(pool, slot, box, sigma_m,
+                                              (float)plot->offset_us *
+                                                  (plot->offset_us < 0 ? -1e-6f : 1e-6f));
+    }
     return plot->x_m >= box->x_min_m - slack_m && plot->x_m <= box->x_max_m + slack_m &&
            plot->y_m >= box->y_min_m - slack_m && plot->y_m <= box->y_max_m + slack_m &&
            (!(measures & RHO_MEASURES_Z) ||

@@ -6,14 +6,10 @@
 #include <float.h>
 #include <string.h>
 
-#include "hypotheses_nodes_filters_and_weights.h"
+#include "hypotheses_pool.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/imm_notch.h"
-
-/* Largest loss of a hypothesis' weight at one update for a speed above the limit. */
-#define SPEED_LOSS_MAX_NAT 10.0f
-
-/* ---- score ----------------------------------------------------------------------------------- */
 
 /* ln of the clutter's density in all measured dimensions, with two or three axes of position. */
 static float log_clutter_density(const struct rho_hypotheses_clutter *clutter, uint32_t measures,
@@ -39,8 +35,8 @@ struct offered_plot {
  * Inserts a plot into a hypothesis' list of its best plots, of equals behind the earlier ones.
  * Returns the hypothesis' weight with the plot.
  */
-static inline float list_candidate_plot_and_return_weight(struct rho_hypothesis *at, float gain_nat,
-                                                          float probability, int16_t row)
+static inline float list_candidate(struct rho_hypothesis *at, float gain_nat, float probability,
+                                   int16_t row)
 {
     struct rho_hypotheses_candidate *list = at->candidates;
     unsigned place = at->num_candidates;
@@ -56,73 +52,64 @@ static inline float list_candidate_plot_and_return_weight(struct rho_hypothesis 
     return at->weight_nat + gain_nat;
 }
 
-/* Predicts the range rates of a slot's hypotheses, once for all plots of a scan. */
-static void ensure_range_rates_predicted(struct rho_hypotheses *pool, uint16_t slot,
-                                         const struct rho_sensor *sensor)
-{
-    if (pool->gate_slot == slot && !(pool->gate_variance_m2 > 0.0f)) {
-        return;
-    }
-    pool->gate_variance_m2 = 0.0f;
-    pool->gate_slot = slot;
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        rho_imm_predict_range_rates(&pool->opened.rates[i],
-                                    &pool->nodes[pool->node_of[slot][i]].imm, sensor);
-    }
-}
-
 /*
- * Scores a plot with a hypothesis at the plot's own time. rates: predicted at the hypothesis' time,
- * used if the plot has the same time; NULL: none.
+ * Scores a plot with each hypothesis in turn, at the plot's own time. Returns the weight of the
+ * best hypothesis with the plot; -FLT_MAX: the plot is in no gate.
  */
-static inline int score_plot_if_in_gate(struct rho_hypotheses *pool,
-                                        const struct rho_imm_rates *rates,
-                                        const struct rho_hypothesis *at,
-                                        const struct offered_plot *offer,
-                                        struct rho_imm_match *match)
-{
-    if (rates && at->time_us == offer->time_us) {
-        return rho_imm_score_plot_with_rates(&at->imm, rates, offer->seen, match);
-    }
-    const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, offer->time_us);
-    return imm && rho_imm_predict_rates_and_score_plot(imm, offer->seen, match);
-}
-
-/*
- * Scores a plot with each hypothesis in turn. Returns the weight of the best hypothesis with the
- * plot; -FLT_MAX: the plot is in no gate.
- */
-static float score_plot_with_hypotheses_return_best_weight(struct rho_hypotheses *pool,
-                                                           uint16_t slot,
-                                                           const struct offered_plot *offer)
+static float score_by_hypotheses(struct rho_hypotheses *pool, uint16_t slot,
+                                 const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
-    struct rho_imm_match match;
-    float best = -FLT_MAX;
-    const struct rho_imm_rates *rates = 0;
-    /* most often all hypotheses have the same time */
-    if (pool->nodes[nodes[0]].time_us == offer->time_us) {
-        rates = pool->opened.rates;
-        if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
-            ensure_range_rates_predicted(pool, slot, offer->seen->sensor);
+    /* most often all hypotheses have the plot's time: range rates are predicted once a scan */
+    const int has_rates = pool->nodes[nodes[0]].time_us == offer->time_us;
+    if (has_rates && (offer->seen->measures & RHO_MEASURES_RANGE_RATE) &&
+        (pool->gate_slot != slot || pool->gate_variance_m2 > 0.0f)) {
+        pool->gate_variance_m2 = 0.0f;
+        pool->gate_slot = slot;
+        for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+            rho_imm_predict_range_rates(&pool->opened.rates[i], &pool->nodes[nodes[i]].imm,
+                                        offer->seen->sensor);
         }
     }
+    struct rho_imm_match match;
+    float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
-        if (score_plot_if_in_gate(pool, rates ? &rates[i] : 0, at, offer, &match)) {
+        int is_in_gate;
+        if (has_rates && at->time_us == offer->time_us) {
+            is_in_gate =
+                rho_imm_score_with_rates(&at->imm, &pool->opened.rates[i], offer->seen, &match);
+        } else {
+            const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, offer->time_us);
+            is_in_gate = imm && rho_imm_score_plot(imm, offer->seen, &match);
+        }
+        if (is_in_gate) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
-            const float score = list_candidate_plot_and_return_weight(
-                at, pd_over_clutter + match.log_likelihood, match.probability, offer->row);
+            const float score = list_candidate(at, pd_over_clutter + match.log_likelihood,
+                                               match.probability, offer->row);
             best = score > best ? score : best;
         }
     }
     return best;
 }
 
-/* Prepares the gates of all hypotheses of a slot at one time, kept for plots of the same noise. */
-static void prepare_gates(struct rho_hypotheses *pool, uint16_t slot, float variance_m2, int has_z,
-                          int64_t time_us)
+/*
+ * True where a plot can be scored in gates prepared at the hypotheses' time; prepares them for the
+ * plot's noise if they are for another noise or slot.
+ */
+static int ensure_gates(struct rho_hypotheses *pool, uint16_t slot, const struct rho_imm_plot *seen,
+                        int64_t time_us)
 {
+    const float variance_m2 = seen->position.variance_m2[0];
+    const int has_z = seen->position.has_z;
+    if (!seen->position.is_isotropic || pool->nodes[pool->node_of[slot][0]].time_us != time_us ||
+        (seen->measures & (RHO_MEASURES_VELOCITY | RHO_MEASURES_RANGE_RATE)) != 0) {
+        return 0;
+    }
+    if (pool->gate_slot == slot && pool->gate_has_z == has_z &&
+        !(variance_m2 < pool->gate_variance_m2 || variance_m2 > pool->gate_variance_m2)) {
+        return pool->gate_is_usable;
+    }
     pool->gate_variance_m2 = variance_m2;
     pool->gate_slot = slot;
     pool->gate_has_z = (uint8_t)has_z;
@@ -131,75 +118,34 @@ static void prepare_gates(struct rho_hypotheses *pool, uint16_t slot, float vari
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         pool->gate_is_usable =
             pool->gate_is_usable && at->time_us == time_us &&
-            rho_imm_prepare_gate_if_uncoupled(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
-    }
-}
-
-/*
- * True where a plot can be scored in gates prepared at the hypotheses' time; prepares them for the
- * plot's noise if they are for another noise or slot.
- */
-static int ensure_gates_for_plot(struct rho_hypotheses *pool, uint16_t slot,
-                                 const struct rho_imm_plot *seen, int64_t time_us)
-{
-    const float variance_m2 = seen->position.variance_m2[0];
-    if (!seen->position.is_isotropic || pool->nodes[pool->node_of[slot][0]].time_us != time_us ||
-        (seen->measures & (RHO_MEASURES_VELOCITY | RHO_MEASURES_RANGE_RATE)) != 0) {
-        return 0;
-    }
-    if (pool->gate_slot != slot || pool->gate_has_z != seen->position.has_z ||
-        variance_m2 < pool->gate_variance_m2 || variance_m2 > pool->gate_variance_m2) {
-        prepare_gates(pool, slot, variance_m2, seen->position.has_z, time_us);
+            rho_imm_prepare_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
     }
     return pool->gate_is_usable;
 }
 
-/* Gain that a plot must exceed to enter the hypothesis' list or to be better than `best`. */
-static inline float gain_a_plot_must_exceed_to_matter(const struct rho_hypothesis *at, float best)
-{
-    if (at->num_candidates < RHO_HYPOTHESES_CHILDREN) {
-        return -FLT_MAX;
-    }
-    const float others = best - at->weight_nat;
-    const float last = at->candidates[RHO_HYPOTHESES_CHILDREN - 1].gain_nat;
-    return last < others ? last : others;
-}
-
-/*
- * Scores a plot of a position alone in one hypothesis' gate. Returns the larger one of
- * best_weight_nat and the hypothesis' weight with the plot.
- */
-static inline float offer_plot_in_one_gate(struct rho_hypothesis *at,
-                                           const struct rho_imm_gate *gate, const float place_m[3],
-                                           int16_t row, float pd_over_clutter_nat,
-                                           float best_weight_nat)
-{
-    float log_likelihood, probability;
-    if (!rho_imm_score_position_in_gate(gate, place_m,
-                                        gain_a_plot_must_exceed_to_matter(at, best_weight_nat) -
-                                            pd_over_clutter_nat,
-                                        &log_likelihood, &probability)) {
-        return best_weight_nat;
-    }
-    const float made = list_candidate_plot_and_return_weight(
-        at, pd_over_clutter_nat + log_likelihood, probability, row);
-    return made > best_weight_nat ? made : best_weight_nat;
-}
-
-/*
- * Scores a plot in the prepared gates of all hypotheses; returns as
- * score_plot_with_hypotheses_return_best_weight.
- */
-static float offer_to_prepared_gates_return_best_weight(struct rho_hypotheses *pool, uint16_t slot,
-                                                        const struct offered_plot *offer)
+/* Scores a plot of a position alone in the prepared gates; returns as score_by_hypotheses. */
+static float score_in_gates(struct rho_hypotheses *pool, uint16_t slot,
+                            const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm_gate *gate = &pool->opened.gates[i];
-        best = offer_plot_in_one_gate(&pool->nodes[nodes[i]], gate, offer->seen->position.place_m,
-                                      offer->row, gate->num_axes > 2 ? offer->high : offer->level,
-                                      best);
+        struct rho_hypothesis *at = &pool->nodes[nodes[i]];
+        const float pd_over_clutter = gate->num_axes > 2 ? offer->high : offer->level;
+        /* gain that a plot must exceed to enter the hypothesis' list or to be better than `best` */
+        float least = -FLT_MAX, log_likelihood, probability;
+        if (at->num_candidates == RHO_HYPOTHESES_CHILDREN) {
+            const float others = best - at->weight_nat;
+            const float last = at->candidates[RHO_HYPOTHESES_CHILDREN - 1].gain_nat;
+            least = last < others ? last : others;
+        }
+        if (rho_imm_score_in_gate(gate, offer->seen->position.place_m, least - pd_over_clutter,
+                                  &log_likelihood, &probability)) {
+            const float made =
+                list_candidate(at, pd_over_clutter + log_likelihood, probability, offer->row);
+            best = made > best ? made : best;
+        }
     }
     return best;
 }
@@ -209,8 +155,7 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
                               float log_pd, const struct rho_hypotheses_clutter *clutter,
                               float *best_weight_nat)
 {
-    if (!pool || !seen || !clutter || !best_weight_nat ||
-        !rho_hypotheses_has_any_in_slot(pool, slot)) {
+    if (!pool || !seen || !clutter || !best_weight_nat || !rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
     const struct offered_plot offer = {
@@ -220,9 +165,9 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
         .high = log_pd - log_clutter_density(clutter, seen->measures, 3),
         .row = row,
     };
-    const float best = ensure_gates_for_plot(pool, slot, seen, time_us)
-                           ? offer_to_prepared_gates_return_best_weight(pool, slot, &offer)
-                           : score_plot_with_hypotheses_return_best_weight(pool, slot, &offer);
+    const float best = ensure_gates(pool, slot, seen, time_us)
+                           ? score_in_gates(pool, slot, &offer)
+                           : score_by_hypotheses(pool, slot, &offer);
     if (!(best > -FLT_MAX)) {
         return 0;
     }
@@ -239,18 +184,10 @@ int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t sl
     return candidates > 0;
 }
 
-/* ---- commit ---------------------------------------------------------------------------------- */
-
-/* True where no other track claims the plot. */
-static int is_free_plot(const struct rho_hypotheses_scan *scan, int16_t row)
-{
-    return !scan->claims || scan->claims[row] < 0 || scan->claims[row] == scan->own;
-}
-
 /* True where two children have the same plots in the last scans. */
-static inline int have_same_recent_plots(const struct rho_hypotheses *pool, const uint16_t *nodes,
-                                         const struct rho_hypotheses_child *a,
-                                         const struct rho_hypotheses_child *b)
+static inline int have_same_picks(const struct rho_hypotheses *pool, const uint16_t *nodes,
+                                  const struct rho_hypotheses_child *a,
+                                  const struct rho_hypotheses_child *b)
 {
     if (a->row != b->row) {
         return 0;
@@ -274,7 +211,7 @@ static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes,
 {
     struct rho_hypotheses_child *list = pool->children;
     unsigned gap = 0; /* entry that is overwritten */
-    while (gap < num && !have_same_recent_plots(pool, nodes, &list[gap], child)) {
+    while (gap < num && !have_same_picks(pool, nodes, &list[gap], child)) {
         gap++;
     }
     if (gap < num && !(child->weight_nat > list[gap].weight_nat)) {
@@ -290,18 +227,17 @@ static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes,
 }
 
 /* True where a child of weight_nat is too light for the list of the heaviest children. */
-static inline int is_too_light_for_full_list(const struct rho_hypotheses *pool, unsigned num,
-                                             float weight_nat)
+static inline int is_too_light(const struct rho_hypotheses *pool, unsigned num, float weight_nat)
 {
     return num == RHO_HYPOTHESES_OF_TRACK && !(weight_nat > pool->children[num - 1].weight_nat);
 }
 
 /*
- * Lists the heaviest children of a slot's hypotheses, the heaviest first, without updating any
- * filter. Returns their number.
+ * Lists the children that replace their parents, the heaviest first and none much lighter, without
+ * updating any filter, and makes room for them in the pool. Returns their number.
  */
-static unsigned collect_heaviest_children(struct rho_hypotheses *pool, uint16_t slot,
-                                          const struct rho_hypotheses_scan *scan)
+static unsigned select_children(struct rho_hypotheses *pool, uint16_t slot,
+                                const struct rho_hypotheses_scan *scan)
 {
     const uint16_t *nodes = pool->node_of[slot];
     unsigned num = 0;
@@ -310,56 +246,27 @@ static unsigned collect_heaviest_children(struct rho_hypotheses *pool, uint16_t 
         struct rho_hypotheses_child child = {.parent = (uint8_t)i};
         for (unsigned k = 0; k < at->num_candidates; k++) {
             child.weight_nat = at->weight_nat + at->candidates[k].gain_nat;
-            if (is_too_light_for_full_list(pool, num, child.weight_nat)) {
+            if (is_too_light(pool, num, child.weight_nat)) {
                 break; /* the candidates that follow are lighter still */
             }
             child.row = at->candidates[k].row;
             child.candidate = (uint8_t)k;
-            if (is_free_plot(scan, child.row)) {
+            const int16_t *claims = scan->claims;
+            if (!claims || claims[child.row] < 0 || claims[child.row] == scan->own) {
                 num = insert_child(pool, nodes, num, &child);
             }
         }
         child.weight_nat = at->weight_nat + scan->log_miss;
         child.row = RHO_HYPOTHESES_MISS;
-        if (!is_too_light_for_full_list(pool, num, child.weight_nat)) {
+        if (!is_too_light(pool, num, child.weight_nat)) {
             num = insert_child(pool, nodes, num, &child);
         }
     }
-    return num;
-}
-
-/*
- * Selects the children that replace their parents, none much lighter than the best, and makes room
- * for them in the pool. Returns their number.
- */
-static unsigned select_children_and_make_room(struct rho_hypotheses *pool, uint16_t slot,
-                                              const struct rho_hypotheses_scan *scan)
-{
-    unsigned num = collect_heaviest_children(pool, slot, scan);
     const float least = pool->children[0].weight_nat + RHO_HYPOTHESES_WEIGHT_MIN;
     while (num > 1 && pool->children[num - 1].weight_nat < least) {
         num--;
     }
-    return rho_hypotheses_room_after_cutting_others(pool, slot, num);
-}
-
-/*
- * Updates a hypothesis with a plot at the plot's own time, and returns the plot's row. If the
- * update fails the filter becomes restored_on_failure, and the result is a miss.
- */
-static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                                        const struct rho_imm *restored_on_failure,
-                                        const struct rho_imm_plot *seen, int64_t time_us,
-                                        const struct rho_imm_match *match, int16_t row)
-{
-    if (rho_hypotheses_predict_one_filter_unmixed(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
-        rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
-        at->time_us = time_us;
-        return row;
-    }
-    at->imm = *restored_on_failure;
-    pool->updates_refused = rho_count(pool->updates_refused, 1);
-    return RHO_HYPOTHESES_MISS;
+    return rho_hypotheses_make_room(pool, slot, num);
 }
 
 /*
@@ -389,7 +296,7 @@ static float excess_speed_loss_nat(const struct rho_imm *imm, float speed_max_mp
 
 /*
  * Extends a hypothesis by one child: updates filter, history of plots and weight. A plot whose
- * update fails is weighed as a miss.
+ * update fails is weighed as a miss, and the filter becomes `before`.
  */
 static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                const struct rho_imm *before, const struct rho_hypotheses_scan *scan,
@@ -399,10 +306,17 @@ static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
     const float as_miss = at->weight_nat + scan->log_miss;
     int16_t row = child->row;
     if (row >= 0) {
-        const struct rho_hypotheses_candidate *chosen = &at->candidates[child->candidate];
-        const struct rho_imm_match match = {.probability = chosen->probability};
-        row = update_with_plot_or_miss(pool, at, before, seen,
-                                       scan->time_us + scan->plots[row].offset_us, &match, row);
+        const struct rho_imm_match match = {.probability =
+                                                at->candidates[child->candidate].probability};
+        const int64_t time_us = scan->time_us + scan->plots[row].offset_us;
+        if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
+            rho_imm_update(&at->imm, &pool->model, seen, &match) == RHO_OK) {
+            at->time_us = time_us;
+        } else {
+            at->imm = *before;
+            pool->updates_refused = rho_count(pool->updates_refused, 1);
+            row = RHO_HYPOTHESES_MISS;
+        }
     }
     for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
         at->picks[k - 1] = at->picks[k];
@@ -417,35 +331,11 @@ static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
 }
 
 /*
- * Makes one child of a parent, and returns its node: a copy while the parent has more children; the
- * last child takes the parent's node, whose filter is saved in case the update fails.
- */
-static uint16_t make_child_hypothesis_get_node(struct rho_hypotheses *pool, uint16_t parent_node,
-                                               int is_last_of_parent,
-                                               const struct rho_hypotheses_scan *scan,
-                                               const struct rho_hypotheses_child *child,
-                                               const struct rho_imm_plot *seen)
-{
-    struct rho_hypothesis *from = &pool->nodes[parent_node];
-    if (!is_last_of_parent) {
-        const uint16_t node = rho_hypotheses_pop_free_hypothesis_node(pool);
-        pool->nodes[node] = *from;
-        advance_hypothesis(pool, &pool->nodes[node], &from->imm, scan, child, seen);
-        return node;
-    }
-    if (child->row >= 0) {
-        pool->scratch = from->imm;
-    }
-    advance_hypothesis(pool, from, &pool->scratch, scan, child, seen);
-    return parent_node;
-}
-
-/*
  * Replaces a slot's hypotheses by their children. Nodes of parents without children are freed; a
  * parent's last child takes its node, the others get copies.
  */
-static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t slot,
-                                        const struct rho_hypotheses_scan *scan, unsigned num)
+static void replace_parents(struct rho_hypotheses *pool, uint16_t slot,
+                            const struct rho_hypotheses_scan *scan, unsigned num)
 {
     uint8_t uses[RHO_HYPOTHESES_OF_TRACK] = {0};
     uint16_t nodes[RHO_HYPOTHESES_OF_TRACK];
@@ -456,19 +346,27 @@ static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t sl
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         if (uses[i] == 0) {
-            rho_hypotheses_push_free_node(pool, pool->node_of[slot][i]);
+            rho_hypotheses_push_node(pool, pool->node_of[slot][i]);
         }
     }
     for (unsigned i = 0; i < num; i++) {
         const struct rho_hypotheses_child *child = &pool->children[i];
-        const int is_last_of_parent = --uses[child->parent] == 0;
+        nodes[i] = pool->node_of[slot][child->parent];
+        struct rho_hypothesis *parent = &pool->nodes[nodes[i]];
+        const struct rho_imm *before = &parent->imm; /* the filter in case the update fails */
         /* consecutive children often have the same plot */
         if (child->row >= 0 && child->row != opened) {
             opened = child->row;
             rho_imm_prepare_plot(&seen, &scan->plots[opened], scan->measures, scan->sensor);
         }
-        nodes[i] = make_child_hypothesis_get_node(pool, pool->node_of[slot][child->parent],
-                                                  is_last_of_parent, scan, child, &seen);
+        if (--uses[child->parent] > 0) {
+            nodes[i] = rho_hypotheses_pop_node(pool);
+            pool->nodes[nodes[i]] = *parent;
+        } else if (child->row >= 0) {
+            pool->scratch = parent->imm;
+            before = &pool->scratch;
+        }
+        advance_hypothesis(pool, &pool->nodes[nodes[i]], before, scan, child, &seen);
     }
     memcpy(pool->node_of[slot], nodes, num * sizeof nodes[0]);
     pool->num_of[slot] = (uint8_t)num;
@@ -478,7 +376,7 @@ static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t sl
  * Sorts a slot's hypotheses by weight, makes the best one's weight 0 and removes those that are
  * much lighter. Returns the weight that the best one had.
  */
-static float sort_rebase_and_prune(struct rho_hypotheses *pool, uint16_t slot)
+static float prune_slot(struct rho_hypotheses *pool, uint16_t slot)
 {
     uint16_t *nodes = pool->node_of[slot];
     for (unsigned i = 1; i < pool->num_of[slot]; i++) {
@@ -493,7 +391,7 @@ static float sort_rebase_and_prune(struct rho_hypotheses *pool, uint16_t slot)
     const float best = rho_hypotheses_rebase_weights(pool, slot);
     for (unsigned i = pool->num_of[slot] - 1u;
          pool->nodes[nodes[i]].weight_nat < RHO_HYPOTHESES_WEIGHT_MIN; i--) {
-        rho_hypotheses_push_free_node(pool, nodes[i]);
+        rho_hypotheses_push_node(pool, nodes[i]);
         pool->num_of[slot] = (uint8_t)i;
     }
     return best;
@@ -506,50 +404,31 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
     if (!pool || !scan || !outcome) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_hypotheses_has_any_in_slot(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     const float before = rho_hypotheses_sum_of_shares(pool, slot);
-    replace_parents_by_children(pool, slot, scan, select_children_and_make_room(pool, slot, scan));
-    const float best = sort_rebase_and_prune(pool, slot);
+    replace_parents(pool, slot, scan, select_children(pool, slot, scan));
+    const float best = prune_slot(pool, slot);
     outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
     outcome->gain_nat = best + rho_log(rho_hypotheses_sum_of_shares(pool, slot) / before);
     return RHO_OK;
 }
 
-/* ---- certain plots --------------------------------------------------------------------------- */
-
-/* Moves a hypothesis to another time. Returns 0 if it cannot be moved, and is unchanged. */
-static int try_move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                               int64_t time_us)
+/*
+ * Moves a hypothesis to another time. Returns 0 if it cannot be moved, and is unchanged; else
+ * scratch has a copy of the moved filter, in case the update that follows fails.
+ */
+static int move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
 {
     pool->scratch = at->imm;
-    if (rho_hypotheses_predict_one_filter_unmixed(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
         at->imm = pool->scratch;
         return 0;
     }
     at->time_us = time_us;
-    return 1;
-}
-
-/* Moves a hypothesis to the plot's time and updates it; a failed update leaves it predicted. */
-static enum rho_status update_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                                         const struct rho_imm_plot *seen, int64_t time_us)
-{
-    struct rho_imm_match match;
-    if (!try_move_hypothesis(pool, at, time_us)) {
-        return RHO_ERROR_VALUE;
-    }
-    /* a plot far from both predictions does not change the models' probabilities */
-    if (!rho_imm_predict_rates_and_score_plot(&at->imm, seen, &match)) {
-        match.probability = at->imm.probability;
-    }
     pool->scratch = at->imm;
-    enum rho_status status = rho_imm_update(&at->imm, &pool->model, seen, &match);
-    if (status != RHO_OK) {
-        at->imm = pool->scratch;
-    }
-    return status;
+    return 1;
 }
 
 enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot,
@@ -559,33 +438,25 @@ enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot
     if (!pool || !seen) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_hypotheses_has_any_in_slot(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        enum rho_status one =
-            update_hypothesis(pool, &pool->nodes[pool->node_of[slot][i]], seen, time_us);
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        struct rho_imm_match match;
+        enum rho_status one = RHO_ERROR_VALUE;
+        if (move_hypothesis(pool, at, time_us)) {
+            /* a plot far from both predictions does not change the models' probabilities */
+            if (!rho_imm_score_plot(&at->imm, seen, &match)) {
+                match.probability = at->imm.probability;
+            }
+            one = rho_imm_update(&at->imm, &pool->model, seen, &match);
+            if (one != RHO_OK) {
+                at->imm = pool->scratch;
+            }
+        }
         status = status == RHO_OK ? RHO_OK : one;
         pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
-    }
-    return status;
-}
-
-static enum rho_status update_hypothesis_by_bearing(struct rho_hypotheses *pool,
-                                                    struct rho_hypothesis *at, int64_t time_us,
-                                                    float x_m, float y_m, float bearing_rad,
-                                                    float sigma_rad, float *gain_nat)
-{
-    *gain_nat = 0.0f;
-    if (!try_move_hypothesis(pool, at, time_us)) {
-        return RHO_ERROR_VALUE;
-    }
-    pool->scratch = at->imm;
-    enum rho_status status =
-        rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, gain_nat);
-    if (status != RHO_OK) {
-        at->imm = pool->scratch;
-        *gain_nat = 0.0f;
     }
     return status;
 }
@@ -596,45 +467,41 @@ static int has_used_bearing(float gain_nat)
     return gain_nat < 0.0f || gain_nat > 0.0f;
 }
 
-/*
- * Adds the bearing's gains to the weights. Hypotheses that could not use the bearing get the least
- * gain of the others, so that they have no advantage.
- */
-static void add_bearing_gains(struct rho_hypotheses *pool, uint16_t slot,
-                              const float gains_nat[RHO_HYPOTHESES_OF_TRACK])
-{
-    float least = 0.0f;
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        if (has_used_bearing(gains_nat[i]) && (!has_used_bearing(least) || gains_nat[i] < least)) {
-            least = gains_nat[i];
-        }
-    }
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        pool->nodes[pool->node_of[slot][i]].weight_nat +=
-            has_used_bearing(gains_nat[i]) ? gains_nat[i] : least;
-    }
-}
-
 enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint16_t slot,
                                               int64_t time_us, float x_m, float y_m,
                                               float bearing_rad, float sigma_rad)
 {
     enum rho_status status = RHO_ERROR_VALUE;
-    float gains_nat[RHO_HYPOTHESES_OF_TRACK] = {0.0f};
+    float gains_nat[RHO_HYPOTHESES_OF_TRACK] = {0.0f}, least_nat = 0.0f;
     if (!pool) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_hypotheses_has_any_in_slot(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        enum rho_status one =
-            update_hypothesis_by_bearing(pool, &pool->nodes[pool->node_of[slot][i]], time_us, x_m,
-                                         y_m, bearing_rad, sigma_rad, &gains_nat[i]);
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        float *gain_nat = &gains_nat[i];
+        enum rho_status one = RHO_ERROR_VALUE;
+        if (move_hypothesis(pool, at, time_us)) {
+            one = rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, gain_nat);
+            if (one != RHO_OK) {
+                at->imm = pool->scratch;
+                *gain_nat = 0.0f;
+            }
+        }
+        if (has_used_bearing(*gain_nat) &&
+            (!has_used_bearing(least_nat) || *gain_nat < least_nat)) {
+            least_nat = *gain_nat;
+        }
         status = status == RHO_OK ? RHO_OK : one;
         pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
     }
-    add_bearing_gains(pool, slot, gains_nat);
-    (void)sort_rebase_and_prune(pool, slot);
+    /* hypotheses that could not use the bearing get the least gain: they have no advantage */
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        pool->nodes[pool->node_of[slot][i]].weight_nat +=
+            has_used_bearing(gains_nat[i]) ? gains_nat[i] : least_nat;
+    }
+    (void)prune_slot(pool, slot);
     return status;
 }

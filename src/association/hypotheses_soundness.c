@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hypotheses_soundness: checks whether a pool of unknown origin, such as a snapshot's, is safe to
- * use.
- */
-#include "hypotheses_nodes_filters_and_weights.h"
+/* hypotheses_soundness: whether a pool of unknown origin (a snapshot) is safe to use. */
+#include "hypotheses_pool.h"
 
 /* Number of nodes that one pass over the lists checks, to bound the stack. */
-#define PASS_NODES 256u
+enum { PASS_NODES = 256 };
 
 struct pass {
     unsigned first;
@@ -18,31 +15,6 @@ static void mark_node_met(struct pass *pass, uint16_t node)
     if (node >= pass->first && node - pass->first < PASS_NODES) {
         pass->is_met[node - pass->first] = 1;
     }
-}
-
-/*
- * True where the lists of free nodes and of slots' nodes contain each node from `first` on,
- * PASS_NODES at most. As the lists have as many entries as there are nodes, each node is then
- * listed once.
- */
-static int is_each_node_from_first_in_a_list(const struct rho_hypotheses *pool,
-                                             unsigned first_node_number)
-{
-    struct pass pass = {.first = first_node_number};
-    for (unsigned i = 0; i < pool->num_free; i++) {
-        mark_node_met(&pass, pool->spare[i]);
-    }
-    for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
-        for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-            mark_node_met(&pass, pool->node_of[slot][i]);
-        }
-    }
-    for (unsigned i = 0; i < PASS_NODES && first_node_number + i < RHO_MAX_HYPOTHESES; i++) {
-        if (!pass.is_met[i]) {
-            return 0;
-        }
-    }
-    return 1;
 }
 
 /* True where the free list and the slots' lists contain each node of the pool exactly once. */
@@ -58,9 +30,21 @@ static int has_each_node_once(const struct rho_hypotheses *pool)
     if (pool->num_free > RHO_MAX_HYPOTHESES || named != RHO_MAX_HYPOTHESES) {
         return 0;
     }
+    /* the lists have as many entries as there are nodes: each is listed once if all are listed */
     for (unsigned first = 0; first < RHO_MAX_HYPOTHESES; first += PASS_NODES) {
-        if (!is_each_node_from_first_in_a_list(pool, first)) {
-            return 0;
+        struct pass pass = {.first = first};
+        for (unsigned i = 0; i < pool->num_free; i++) {
+            mark_node_met(&pass, pool->spare[i]);
+        }
+        for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
+            for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+                mark_node_met(&pass, pool->node_of[slot][i]);
+            }
+        }
+        for (unsigned i = 0; i < PASS_NODES && first + i < RHO_MAX_HYPOTHESES; i++) {
+            if (!pass.is_met[i]) {
+                return 0;
+            }
         }
     }
     return 1;
@@ -78,19 +62,16 @@ static int is_sound_node(const struct rho_hypothesis *at)
            rho_is_within(at->imm.calm, 0.0f, 1.0f);
 }
 
-static int is_sound_step(const struct rho_imm_step *step)
-{
-    return rho_is_within(step->dt_s, -1e13f, 1e13f) && rho_is_within(step->begins, 0.0f, 1.0f) &&
-           rho_is_within(step->ends, 0.0f, 1.0f) && rho_is_within(step->calm_begins, 0.0f, 1.0f) &&
-           rho_is_within(step->settles, 0.0f, 1.0f) && rho_is_within(step->odds_over, 0.0f, 1.0f) &&
-           rho_is_within(step->quiet_density, 0.0f, 1e8f) &&
-           rho_is_within(step->calm_density, 0.0f, step->quiet_density);
-}
-
 int rho_hypotheses_is_sound(const struct rho_hypotheses *pool)
 {
+    const struct rho_imm_step *step = &pool->step;
     if (pool->magic != RHO_HYPOTHESES_MAGIC || !rho_imm_model_is_usable(&pool->model) ||
-        !is_sound_step(&pool->step) || !has_each_node_once(pool)) {
+        !rho_is_within(step->dt_s, -1e13f, 1e13f) || !rho_is_within(step->begins, 0.0f, 1.0f) ||
+        !rho_is_within(step->ends, 0.0f, 1.0f) || !rho_is_within(step->calm_begins, 0.0f, 1.0f) ||
+        !rho_is_within(step->settles, 0.0f, 1.0f) || !rho_is_within(step->odds_over, 0.0f, 1.0f) ||
+        !rho_is_within(step->quiet_density, 0.0f, 1e8f) ||
+        !rho_is_within(step->calm_density, 0.0f, step->quiet_density) ||
+        !has_each_node_once(pool)) {
         return 0;
     }
     for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {

@@ -1,54 +1,36 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/detail/angle.h"
 
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define ANGLE_LIMIT_RAD 100.0f
-#define TURNS_PER_RADIAN 0.159154943f
-
-/*
- * Tolerance of comparisons of angles: float32's rounding of an angle that was reduced to one turn.
- */
-#define SECTOR_TOLERANCE_RAD 1.0e-6f
-/* Ends of two sectors within this angle of each other count as equal. */
-#define END_TOLERANCE_RAD 1.0e-3f
-
-/* 2 pi in three parts (Cody and Waite): products of the first two with up to 17 turns are exact. */
-#define TURN_HIGH 6.28125f
-#define TURN_MIDDLE 1.93500518798828125e-3f
-#define TURN_LOW 3.01991598195675286e-7f
+/* Tolerance of comparisons: float32's rounding of an angle that was reduced to one turn. */
+#define SECTOR_ROUNDING_RAD 1.0e-6f
 
 static float magnitude(float v)
 {
     return v < 0.0f ? -v : v;
 }
 
-static float subtract_turns(float angle_rad, float turns)
-{
-    return ((angle_rad - turns * TURN_HIGH) - turns * TURN_MIDDLE) - turns * TURN_LOW;
-}
-
 /* Counter-clockwise angle from one direction to another, in [0, 2 pi). */
 static float ccw_arc_rad(float from_rad, float to_rad)
 {
     const float difference = rho_angle_difference(to_rad, from_rad);
-
     return difference < 0.0f ? difference + RHO_TWO_PI : difference;
 }
 
 float rho_angle_wrap(float angle_rad)
 {
-    float turns, wrapped;
-
     if (angle_rad >= -RHO_PI && angle_rad < RHO_PI) {
         return angle_rad;
     }
-    if (!(angle_rad >= -ANGLE_LIMIT_RAD && angle_rad <= ANGLE_LIMIT_RAD)) {
+    if (!(angle_rad >= -RHO_ANGLE_MAX_RAD && angle_rad <= RHO_ANGLE_MAX_RAD)) {
         return rho_log(-1.0f); /* the result is NaN */
     }
-    turns = (float)(int32_t)(angle_rad * TURNS_PER_RADIAN + (angle_rad < 0.0f ? -0.5f : 0.5f));
-    wrapped = subtract_turns(angle_rad, turns);
+    const float turns = angle_rad * 0.159154943f; /* 1 / (2 pi) */
+    const int32_t whole = (int32_t)(turns + (angle_rad < 0.0f ? -0.5f : 0.5f));
+    const float wrapped = rho_minus_quarters(angle_rad, 4.0f * (float)whole);
     /* The count of turns is rounded: two of all floats end one digit outside of [-pi, pi). */
     return wrapped >= -RHO_PI && wrapped < RHO_PI ? wrapped : -RHO_PI;
 }
@@ -62,7 +44,7 @@ float rho_angle_difference(float a_rad, float b_rad)
     return rho_angle_wrap(rho_angle_wrap(a_rad) - rho_angle_wrap(b_rad));
 }
 
-int rho_angle_are_sector_ends_valid(float from_rad, float to_rad)
+int rho_angle_is_valid_sector(float from_rad, float to_rad)
 {
     return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
            rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
@@ -71,15 +53,14 @@ int rho_angle_are_sector_ends_valid(float from_rad, float to_rad)
 float rho_angle_sector_width(float from_rad, float to_rad)
 {
     const float width = ccw_arc_rad(from_rad, to_rad);
-
-    return width <= SECTOR_TOLERANCE_RAD ? RHO_TWO_PI : width;
+    return width <= SECTOR_ROUNDING_RAD ? RHO_TWO_PI : width;
 }
 
 /*
  * An overlap of two sectors makes the gap between them almost a full turn. One within the tolerance
  * sets the gap to 0; returns 0 for a larger overlap.
  */
-static int zero_gap_or_reject_overlap(float *gap_rad, float free_rad, float tolerance_rad)
+static int zero_gap(float *gap_rad, float free_rad, float tolerance_rad)
 {
     if (*gap_rad > free_rad + 2.0f * tolerance_rad) {
         if (RHO_TWO_PI - *gap_rad > tolerance_rad) {
@@ -101,10 +82,8 @@ unsigned rho_angle_continued_ends(float from_rad, float to_rad, float next_from_
     const float free_rad = RHO_TWO_PI - width_rad - next_rad;
     float left_rad = ccw_arc_rad(to_rad, next_from_rad);
     float right_rad = ccw_arc_rad(next_to_rad, from_rad);
-
-    if (!(free_rad >= -tolerance_rad) ||
-        !zero_gap_or_reject_overlap(&left_rad, free_rad, tolerance_rad) ||
-        !zero_gap_or_reject_overlap(&right_rad, free_rad, tolerance_rad)) {
+    if (!(free_rad >= -tolerance_rad) || !zero_gap(&left_rad, free_rad, tolerance_rad) ||
+        !zero_gap(&right_rad, free_rad, tolerance_rad)) {
         return 0;
     }
     if (left_rad <= tolerance_rad && right_rad <= tolerance_rad) {
@@ -120,12 +99,11 @@ int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
 {
     const float width = ccw_arc_rad(from_rad, to_rad);
     const float way = ccw_arc_rad(from_rad, angle_rad);
-
     if (!(width >= 0.0f && way >= 0.0f)) {
         return 0;
     }
-    return width <= SECTOR_TOLERANCE_RAD || way <= width + SECTOR_TOLERANCE_RAD ||
-           way >= RHO_TWO_PI - SECTOR_TOLERANCE_RAD;
+    return width <= SECTOR_ROUNDING_RAD || way <= width + SECTOR_ROUNDING_RAD ||
+           way >= RHO_TWO_PI - SECTOR_ROUNDING_RAD;
 }
 
 /*
@@ -141,7 +119,6 @@ struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
     const float rho_m = (y_m * ux - x_m * uy) / rho_sqrt(ux * ux + uy * uy);
     const float theta_rad = rho_atan2(ux, -uy);
     struct rho_line line = {.rho_m = rho_m, .theta_rad = theta_rad};
-
     if (line.theta_rad < 0.0f) {
         line.theta_rad += RHO_PI;
         line.rho_m = -line.rho_m;
@@ -156,7 +133,6 @@ struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
 int32_t rho_angle_clamped_theta_cell(float theta_rad, int32_t num_cells)
 {
     const float cell = theta_rad * ((float)num_cells / RHO_PI);
-
     if (!(num_cells > 0 && cell > 0.0f)) {
         return 0;
     }

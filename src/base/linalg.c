@@ -3,29 +3,16 @@
 
 #include <float.h>
 #include <stddef.h>
-#include <stdint.h>
 
 #include "rhotrack/detail/approx.h"
 
-/*
- * Before an update reduces a variance, the variance is raised by 2^-20, sixteen units of float32's
- * rounding. The products that are subtracted carry at most four units each, so a positive definite
- * matrix stays so even where the measurement is 10^8 times better than the prediction and every
- * digit cancels.
- */
-#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
-
-/* Allowance for the rounding of a rotation, as a share of the larger variance: four units. */
-#define TURN_ALLOWANCE (1.0f / 4194304.0f)
-
-/* Indices of the elements of row i of a packed symmetric 6 x 6 matrix. */
-static const uint8_t row_places[6][6] = {
+const uint8_t rho_linalg_row6[6][6] = {
     {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
     {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
 };
 
 /* True for a positive finite number; false for NaN. */
-static int is_positive_and_finite(float v)
+static int is_pivot(float v)
 {
     return v > 0.0f && v <= FLT_MAX;
 }
@@ -34,79 +21,29 @@ static int is_positive_and_finite(float v)
 static float dot(int n, const float *a, const float *b)
 {
     float sum = 0.0f;
-    int i;
-
-    for (i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i) {
         sum += a[i] * b[i];
     }
     return sum;
 }
 
-/*
- * Row i of the Cholesky factor, from row i of the matrix and the factor's rows above. False where
- * the pivot is not positive and finite.
- */
-static int cholesky_row(int i, const float *a, float *l)
-{
-    float *row = &l[RHO_TRIANGLE(i)];
-    float pivot;
-    int j;
-
-    for (j = 0; j < i; ++j) {
-        const float *above = &l[RHO_TRIANGLE(j)];
-
-        row[j] = (a[RHO_TRIANGLE(i) + j] - dot(j, row, above)) / above[j];
-    }
-    pivot = a[RHO_TRIANGLE(i) + i] - dot(i, row, row);
-    row[i] = rho_sqrt(pivot);
-    return is_positive_and_finite(pivot);
-}
-
-/* p := p - gain row^T outside of the diagonal; gain: row / S. */
-static inline void reduce_off_diagonal_covariances(float p[21], const float row[6],
-                                                   const float gain[6])
-{
-    RHO_UNROLL
-    for (int i = 1; i < 6; ++i) {
-        RHO_UNROLL
-        for (int j = 0; j < i; ++j) {
-            p[RHO_AT(i, j)] -= gain[i] * row[j];
-        }
-    }
-}
-
-/*
- * A variance after an update. The rounding allowance is for the covariances of its element: a
- * variance without any needs none.
- */
-static inline float variance_minus_gain_covariance(float variance, float gain, float covariance)
-{
-    /* 0 or more; 0 where measurement and element are not coupled */
-    const float taken = gain * covariance;
-
-    return taken > 0.0f ? variance * ROUNDING_ALLOWANCE - taken : variance;
-}
-
-static inline void reduce_diagonal_variances(float p[21], const float row[6], const float gain[6])
-{
-    RHO_UNROLL
-    for (int i = 0; i < 6; ++i) {
-        p[RHO_AT(i, i)] = variance_minus_gain_covariance(p[RHO_AT(i, i)], gain[i], row[i]);
-    }
-}
-
 enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
 {
-    int i;
-
     if (a == NULL || l == NULL) {
         return RHO_ERROR_NULL;
     }
     if (n < 1 || n > RHO_LINALG_MAX) {
         return RHO_ERROR_CAPACITY;
     }
-    for (i = 0; i < n; ++i) {
-        if (!cholesky_row(i, a, l)) {
+    for (int i = 0; i < n; ++i) {
+        float *row = &l[RHO_TRIANGLE(i)];
+        for (int j = 0; j < i; ++j) {
+            const float *above = &l[RHO_TRIANGLE(j)];
+            row[j] = (a[RHO_TRIANGLE(i) + j] - dot(j, row, above)) / above[j];
+        }
+        const float pivot = a[RHO_TRIANGLE(i) + i] - dot(i, row, row);
+        row[i] = rho_sqrt(pivot);
+        if (!is_pivot(pivot)) {
             return RHO_ERROR_SINGULAR;
         }
     }
@@ -115,27 +52,22 @@ enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
 
 void rho_linalg_forward(int n, const float *l, float *b)
 {
-    int i;
-
     if (n < 1 || n > RHO_LINALG_MAX || l == NULL || b == NULL) {
         return;
     }
-    for (i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i) {
         const float *row = &l[RHO_TRIANGLE(i)];
-
         b[i] = (b[i] - dot(i, row, b)) / row[i];
     }
 }
 
 void rho_linalg_backward(int n, const float *l, float *b)
 {
-    int i, j;
-
     if (n < 1 || n > RHO_LINALG_MAX || l == NULL || b == NULL) {
         return;
     }
-    for (i = n - 1; i >= 0; --i) {
-        for (j = i + 1; j < n; ++j) {
+    for (int i = n - 1; i >= 0; --i) {
+        for (int j = i + 1; j < n; ++j) {
             b[i] -= l[RHO_AT(j, i)] * b[j];
         }
         b[i] /= l[RHO_AT(i, i)];
@@ -145,12 +77,10 @@ void rho_linalg_backward(int n, const float *l, float *b)
 float rho_linalg_log_determinant(int n, const float *l)
 {
     float sum = 0.0f;
-    int i;
-
     if (n < 1 || n > RHO_LINALG_MAX || l == NULL) {
         return rho_log(-1.0f);
     }
-    for (i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i) {
         sum += rho_log(l[RHO_AT(i, i)]);
     }
     return 2.0f * sum;
@@ -163,20 +93,15 @@ float rho_linalg_log_determinant(int n, const float *l)
 enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
                                 float *log_det)
 {
-    float l10, pivot1, y1, distance, logarithm;
-
     if (s == NULL || d == NULL || distance2 == NULL || log_det == NULL) {
         return RHO_ERROR_NULL;
     }
-    l10 = s[1] / s[0];
-    pivot1 = s[2] - l10 * s[1];
-    y1 = d[1] - l10 * d[0];
-    distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1;
-    if (!(is_positive_and_finite(s[0]) && is_positive_and_finite(pivot1) &&
-          rho_is_finite(distance))) {
+    const float l10 = s[1] / s[0], pivot1 = s[2] - l10 * s[1], y1 = d[1] - l10 * d[0];
+    const float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1;
+    if (!(is_pivot(s[0]) && is_pivot(pivot1) && rho_is_finite(distance))) {
         return RHO_ERROR_SINGULAR;
     }
-    logarithm = rho_log(s[0] * pivot1);
+    const float logarithm = rho_log(s[0] * pivot1);
     if (!rho_is_finite(logarithm)) {
         return RHO_ERROR_SINGULAR;
     }
@@ -188,25 +113,18 @@ enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *dista
 enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *distance2,
                                 float *log_det)
 {
-    float l10, l20, l21, c21, pivot1, pivot2, y1, y2, distance, logarithm;
-
     if (s == NULL || d == NULL || distance2 == NULL || log_det == NULL) {
         return RHO_ERROR_NULL;
     }
-    l10 = s[1] / s[0];
-    l20 = s[3] / s[0];
-    pivot1 = s[2] - l10 * s[1];
-    c21 = s[4] - l20 * s[1];
-    l21 = c21 / pivot1;
-    pivot2 = s[5] - l20 * s[3] - l21 * c21;
-    y1 = d[1] - l10 * d[0];
-    y2 = d[2] - l20 * d[0] - l21 * y1;
-    distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1 + y2 * y2 / pivot2;
-    if (!(is_positive_and_finite(s[0]) && is_positive_and_finite(pivot1) &&
-          is_positive_and_finite(pivot2) && rho_is_finite(distance))) {
+    const float l10 = s[1] / s[0], l20 = s[3] / s[0], pivot1 = s[2] - l10 * s[1];
+    const float c21 = s[4] - l20 * s[1], l21 = c21 / pivot1;
+    const float pivot2 = s[5] - l20 * s[3] - l21 * c21;
+    const float y1 = d[1] - l10 * d[0], y2 = d[2] - l20 * d[0] - l21 * y1;
+    const float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1 + y2 * y2 / pivot2;
+    if (!(is_pivot(s[0]) && is_pivot(pivot1) && is_pivot(pivot2) && rho_is_finite(distance))) {
         return RHO_ERROR_SINGULAR;
     }
-    logarithm = rho_log(s[0] * pivot1 * pivot2);
+    const float logarithm = rho_log(s[0] * pivot1 * pivot2);
     if (!rho_is_finite(logarithm)) {
         return RHO_ERROR_SINGULAR;
     }
@@ -215,11 +133,37 @@ enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *dista
     return RHO_OK;
 }
 
+/*
+ * A variance after an update. The rounding allowance is for the covariances of its element: a
+ * variance without any needs none.
+ */
+static inline float reduced_variance(float variance, float gain, float covariance)
+{
+    /* 0 or more; 0 where measurement and element are not coupled */
+    const float taken = gain * covariance;
+    return taken > 0.0f ? variance * RHO_ROUNDING_ALLOWANCE - taken : variance;
+}
+
+/* p := p - gain row^T; gain: row / S. */
+static inline void reduce_covariance(float p[21], const float row[6], const float gain[6])
+{
+    RHO_UNROLL
+    for (int i = 1; i < 6; ++i) {
+        RHO_UNROLL
+        for (int j = 0; j < i; ++j) {
+            p[RHO_AT(i, j)] -= gain[i] * row[j];
+        }
+    }
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        p[RHO_AT(i, i)] = reduced_variance(p[RHO_AT(i, i)], gain[i], row[i]);
+    }
+}
+
 /* x := x + gain innovation. Returns 0, and changes nothing, where a result is not finite. */
 static inline int correct_state(float x[6], const float gain[6], float innovation, float inverse)
 {
     float next[6], sum = 0.0f;
-
     RHO_UNROLL
     for (int i = 0; i < 6; ++i) {
         next[i] = x[i] + gain[i] * innovation;
@@ -235,24 +179,6 @@ static inline int correct_state(float x[6], const float gain[6], float innovatio
     return 1;
 }
 
-/* Copies a row of a packed matrix; place: indices of its elements. */
-static inline void read_row(float row[6], const float p[21], const uint8_t place[6])
-{
-    RHO_UNROLL
-    for (int i = 0; i < 6; ++i) {
-        row[i] = p[place[i]];
-    }
-}
-
-static inline void write_scaled_row(float p[21], const uint8_t place[6], const float row[6],
-                                    float factor)
-{
-    RHO_UNROLL
-    for (int i = 0; i < 6; ++i) {
-        p[place[i]] = row[i] * factor;
-    }
-}
-
 static inline void scale_row(float scaled[6], const float row[6], float factor)
 {
     RHO_UNROLL
@@ -261,28 +187,7 @@ static inline void scale_row(float scaled[6], const float row[6], float factor)
     }
 }
 
-/* Indices of an element's covariances with the elements of the other two axes. */
-static const uint8_t other_axes[6][4] = {
-    {1, 3, 10, 15}, {1, 4, 7, 16},    {3, 4, 8, 12},
-    {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
-};
-
-/* Bits of a float without its sign: 0 for +0 and -0 alone. */
-static inline uint32_t shifted_bits_without_sign(float v)
-{
-    return rho_float_bits(v) << 1;
-}
-
-static inline int is_uncoupled_from_other_axes(const float p[21], const uint8_t others[4])
-{
-    return (shifted_bits_without_sign(p[others[0]]) | shifted_bits_without_sign(p[others[1]]) |
-            shifted_bits_without_sign(p[others[2]]) | shifted_bits_without_sign(p[others[3]])) == 0;
-}
-
-/*
- * A scalar measurement of one element: innovation, 1 / S, and the share R / S of the variance that
- * is kept.
- */
+/* A scalar measurement of one element: innovation, 1 / S, and the share R / S that is kept. */
 struct scalar_measurement {
     float innovation, inverse, kept;
 };
@@ -295,13 +200,12 @@ static int update_axis_alone(float x[6], float p[21], int element,
                              const struct scalar_measurement *seen)
 {
     const int other = element < 3 ? element + 3 : element - 3;
-    float *const mixed = &p[row_places[element][other]], *const own =
-                                                             &p[row_places[element][element]];
-    float *const others = &p[row_places[other][other]];
-    const float gain = *mixed * seen->inverse,
-                x_own = x[element] + *own * seen->inverse * seen->innovation;
+    float *const mixed = &p[rho_linalg_row6[element][other]];
+    float *const own = &p[rho_linalg_row6[element][element]];
+    float *const others = &p[rho_linalg_row6[other][other]];
+    const float gain = *mixed * seen->inverse;
+    const float x_own = x[element] + *own * seen->inverse * seen->innovation;
     const float x_other = x[other] + gain * seen->innovation;
-
     if (!(rho_is_finite(seen->innovation * seen->inverse * seen->innovation) &&
           rho_is_finite(x_own + x_other) &&
           rho_is_finite(x[0] + x[1] + x[2] + x[3] + x[4] + x[5]))) {
@@ -309,7 +213,7 @@ static int update_axis_alone(float x[6], float p[21], int element,
     }
     x[element] = x_own;
     x[other] = x_other;
-    *others = variance_minus_gain_covariance(*others, gain, *mixed);
+    *others = reduced_variance(*others, gain, *mixed);
     *own *= seen->kept;
     *mixed *= seen->kept;
     return 1;
@@ -319,43 +223,51 @@ static int update_all_axes(float x[6], float p[21], const uint8_t place[6],
                            const struct scalar_measurement *seen)
 {
     float row[6], gain[6];
-
-    read_row(row, p, place);
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        row[i] = p[place[i]];
+    }
     scale_row(gain, row, seen->inverse);
     if (!correct_state(x, gain, seen->innovation, seen->inverse)) {
         return 0;
     }
-    reduce_off_diagonal_covariances(p, row, gain);
-    reduce_diagonal_variances(p, row, gain);
-    write_scaled_row(p, place, row, seen->kept);
+    reduce_covariance(p, row, gain);
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        p[place[i]] = row[i] * seen->kept;
+    }
     return 1;
 }
 
 enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element, float innovation,
                                            float variance, float *nis)
 {
-    float predicted, sum;
-    struct scalar_measurement seen;
-
+    /* indices of an element's covariances with the elements of the other two axes */
+    static const uint8_t other_axes[6][4] = {
+        {1, 3, 10, 15}, {1, 4, 7, 16},    {3, 4, 8, 12},
+        {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
+    };
     if (x == NULL || p == NULL) {
         return RHO_ERROR_NULL;
     }
     if (element < 0 || element >= 6) {
         return RHO_ERROR_VALUE;
     }
-    predicted = p[RHO_AT(element, element)];
-    sum = predicted + variance;
+    const float predicted = p[RHO_AT(element, element)], sum = predicted + variance;
     /*
      * The measured row is scaled by R / S instead of being reduced by a difference: no digit
      * cancels. R / S is never above 1.
      */
-    seen = (struct scalar_measurement){innovation, 1.0f / sum, variance / sum};
+    const struct scalar_measurement seen = {innovation, 1.0f / sum, variance / sum};
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    if (!(RHO_FAST_UPDATES && is_uncoupled_from_other_axes(p, other_axes[element])
-              ? update_axis_alone(x, p, element, &seen)
-              : update_all_axes(x, p, row_places[element], &seen))) {
+    const uint8_t *others = other_axes[element];
+    const int is_alone =
+        RHO_FAST_UPDATES && (rho_size_bits(p[others[0]]) | rho_size_bits(p[others[1]]) |
+                             rho_size_bits(p[others[2]]) | rho_size_bits(p[others[3]])) == 0;
+    if (!(is_alone ? update_axis_alone(x, p, element, &seen)
+                   : update_all_axes(x, p, rho_linalg_row6[element], &seen))) {
         return RHO_ERROR_VALUE;
     }
     if (nis != NULL) {
@@ -367,11 +279,9 @@ enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element,
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6])
 {
     float variance = 0.0f;
-
     for (int i = 0; i < 6; ++i) {
-        const uint8_t *place = row_places[i];
+        const uint8_t *place = rho_linalg_row6[i];
         float sum = p[place[0]] * row[0];
-
         RHO_UNROLL
         for (int k = 1; k < 6; ++k) {
             sum += p[place[k]] * row[k];
@@ -386,14 +296,11 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
                                        float innovation, float variance, float *nis)
 {
     float projected[6], gain[6];
-    float predicted, sum, inverse;
-
     if (x == NULL || p == NULL || row == NULL) {
         return RHO_ERROR_NULL;
     }
-    predicted = rho_linalg_project6(p, row, projected);
-    sum = predicted + variance;
-    inverse = 1.0f / sum;
+    const float predicted = rho_linalg_project6(p, row, projected), sum = predicted + variance;
+    const float inverse = 1.0f / sum;
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
@@ -401,8 +308,7 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
     if (!correct_state(x, gain, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
-    reduce_off_diagonal_covariances(p, projected, gain);
-    reduce_diagonal_variances(p, projected, gain);
+    reduce_covariance(p, projected, gain);
     if (nis != NULL) {
         *nis = innovation * inverse * innovation;
     }
@@ -411,20 +317,15 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
 
 void rho_linalg_rotate6(float p[21], int a, int b, float c, float s)
 {
-    const uint8_t *row_a = row_places[a], *row_b = row_places[b];
+    const uint8_t *row_a = rho_linalg_row6[a], *row_b = rho_linalg_row6[b];
     const float aa = p[row_a[a]], ab = p[row_a[b]], bb = p[row_b[b]];
-    /*
-     * the mean of both variances is kept, and only their difference is rotated: that rounds least
-     */
+    /* the mean of both variances is kept, only their difference is rotated: that rounds least */
     const float cos_twice = c * c - s * s, sin_twice = 2.0f * c * s;
     const float mean = 0.5f * (aa + bb), half = 0.5f * (aa - bb);
     const float rest = cos_twice * half + sin_twice * ab;
-    const float allowance = (aa > bb ? aa : bb) * TURN_ALLOWANCE;
-    int k;
-
-    for (k = 0; k < 6; ++k) {
+    const float allowance = (aa > bb ? aa : bb) * RHO_ROUNDING_UNITS(4);
+    for (int k = 0; k < 6; ++k) {
         const float ka = p[row_a[k]], kb = p[row_b[k]];
-
         p[row_a[k]] = c * ka + s * kb;
         p[row_b[k]] = c * kb - s * ka;
     }

@@ -23,6 +23,5 @@ static const char status_names[RHO_NUM_STATUS][9] = {
 const char *rho_status_name(enum rho_status status)
 {
     const unsigned value = (unsigned)status;
-
     return value < RHO_NUM_STATUS ? status_names[value] : "unknown";
 }

@@ -77,7 +77,7 @@ static enum rho_status check_scan(const struct rho_frames *frames,
         return RHO_ERROR_NULL;
     }
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
-        !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
+        !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
         !rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return RHO_ERROR_VALUE;
     }

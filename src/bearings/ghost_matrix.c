@@ -67,8 +67,8 @@ static int is_crossing_kept(const struct beams *beams, unsigned beam, unsigned o
  * Steps 2.1 to 2.4 of the paper: where a beam has a single crossing left, that is the target of
  * both beams, and the other crossings of the other sensor's beam are ghosts. Returns their number.
  */
-static unsigned prune_beams_by_single_crossings(const struct beams *beams, uint8_t *done,
-                                                uint8_t *others_done)
+static unsigned prune_single_crossings(const struct beams *beams, uint8_t *done,
+                                       uint8_t *others_done)
 {
     struct rho_ghost_matrix *matrix = beams->matrix;
     unsigned removed = 0, beam = 0;
@@ -186,15 +186,14 @@ static unsigned prune_crossings_in_no_matching(struct rho_ghost_matrix *matrix)
     return removed;
 }
 
-unsigned rho_ghost_prune_and_count_removed(struct rho_ghost_matrix *matrix,
-                                           enum rho_ghost_rule rule)
+unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule)
 {
     if (rule == RHO_GHOST_LITERAL) {
         uint8_t rows_done[RHO_MAX_BEARINGS] = {0}, columns_done[RHO_MAX_BEARINGS] = {0};
         struct beams rows = {matrix, matrix->rows, matrix->columns, 0};
         struct beams columns = {matrix, matrix->columns, matrix->rows, 1};
-        unsigned removed = prune_beams_by_single_crossings(&rows, rows_done, columns_done);
-        return removed + prune_beams_by_single_crossings(&columns, columns_done, rows_done);
+        unsigned removed = prune_single_crossings(&rows, rows_done, columns_done);
+        return removed + prune_single_crossings(&columns, columns_done, rows_done);
     }
     return rule == RHO_GHOST_SAFE && matrix->rows == matrix->columns
                ? prune_crossings_in_no_matching(matrix)

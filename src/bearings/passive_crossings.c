@@ -116,7 +116,7 @@ static void cross_pair_in_scan(struct rho_passive_search *search, const struct s
                        pair->num_b, passive->config.range_max_m) != RHO_OK) {
         return; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
-    rho_ghost_prune_and_count_removed(&matrix, passive->config.rule);
+    rho_ghost_prune(&matrix, passive->config.rule);
     for (unsigned i = 0; i < pair->num_a; i++) {
         for (unsigned j = 0; j < pair->num_b; j++) {
             int is_ghost = matrix.reason[i][j] != RHO_GHOST_KEPT;

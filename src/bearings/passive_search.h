@@ -3,20 +3,20 @@
  * passive_search: state of one search of the passive initiator, and the functions that its phases
  * share. A file may call files above it in this list, never files below it:
  *
- * - passive_bearings_near_state.c: the bearings that match a state
+ * - bearing_match.c: the bearings that match a state
  * - passive_fit.c: Gauss-Newton fit, score and covariance of a state
- * - passive_candidate_list.c: the list of candidates for tracks
- * - passive_best_candidate_subset.c: the subset of candidates with the highest total score
- * - passive_fit_of_several_tracks.c: one-to-one assignment of bearings to the chosen tracks, and
+ * - candidate_list.c: the list of candidates for tracks
+ * - best_subset.c: the subset of candidates with the highest total score
+ * - joint_fit.c: one-to-one assignment of bearings to the chosen tracks, and
  *   their fits
  * - passive_prepare.c: geometry, times, likelihood ratios
  * - passive_crossings.c: phase 1: crossings of all pairs of sensors
- * - passive_hough_votes_of_crossings.c: phase 2: votes, and the lines with the most votes
- * - passive_hypotheses_from_crossing_pairs.c: phase 3: constant velocities through pairs of a
+ * - crossing_votes.c: phase 2: votes, and the lines with the most votes
+ * - starts.c: phase 3: constant velocities through pairs of a
  *   line's crossings
- * - passive_score_lost_without_a_track.c: phases 4 and 5: the best set of candidates, and the
+ * - final_tracks.c: phases 4 and 5: the best set of candidates, and the
  *   tracks with their margins
- * - passive_targets_behind_ghosts.c: candidates from bearings swapped between two candidates
+ * - swapped_bearings.c: candidates from bearings swapped between two candidates
  * - passive.c: configuration, frames, the sequence of phases of a search
  */
 #ifndef RHOTRACK_PASSIVE_SEARCH_H
@@ -225,7 +225,7 @@ unsigned rho_passive_count_shared(const struct rho_passive_search *search,
 
 /*
  * Offers candidates for targets whose bearings two ghost candidates share: one sensor's bearings of
- * one candidate with another sensor's bearings of the other (passive_targets_behind_ghosts.c).
+ * one candidate with another sensor's bearings of the other (swapped_bearings.c).
  */
 void rho_passive_offer_swapped(struct rho_passive_search *search);
 

@@ -43,7 +43,7 @@
 #define FIRST_VOTES_SHARE 0.6f
 #define SECOND_VOTES_SHARE 0.5f
 
-/* passive_bearings_near_state.c */
+/* bearing_match.c */
 
 /*
  * Bearings farther than this from the predicted bearing never match: a hypothesis through two
@@ -52,7 +52,7 @@
  */
 #define MATCH_SIGMAS 9.0f
 
-/* passive_best_candidate_subset.c, passive_candidate_list.c */
+/* best_subset.c, candidate_list.c */
 
 /*
  * Share of a candidate's bearings at which another is the same target for the margin. Half: targets
@@ -101,12 +101,12 @@
  */
 #define POSITION_MAX_RANGES 2.0f
 
-/* passive_fit_of_several_tracks.c */
+/* joint_fit.c */
 
 /* Rounds of assignment and fit. Half: assignments of the start stay. Twice: hardly any change. */
 #define FIT_ROUNDS 3u
 
-/* passive_hough_votes_of_crossings.c */
+/* crossing_votes.c */
 
 /*
  * Cells on either side that a crossing's votes may reach. Half: poor crossings miss their line.
@@ -119,7 +119,7 @@
  */
 #define NEIGHBOUR_CELLS 2
 
-/* passive_hypotheses_from_crossing_pairs.c */
+/* starts.c */
 
 /*
  * Crossings within this many rho cells always count as on the line. Half: those of the cell's edge
@@ -157,7 +157,7 @@
  */
 #define SIGMA_RATIO_MAX 200.0f
 
-/* passive_score_lost_without_a_track.c: the final tracks */
+/* final_tracks.c: the final tracks */
 
 /*
  * Alternatives whose total is lower than the best choice's by more than this are not fitted, as a

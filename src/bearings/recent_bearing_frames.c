@@ -89,7 +89,7 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
             return RHO_ERROR_NULL;
         }
         if (!is_sensor_usable(batch, frame, i) ||
-            !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad)) {
+            !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad)) {
             return RHO_ERROR_VALUE;
         }
         num_sensors += find_sensor(batch, scan->sensor_id) == batch->num_sensors;
@@ -117,7 +117,7 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
         if (fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        if (!rho_measurement_is_valid_bearing(from)) {
+        if (!rho_bearing_is_valid(from)) {
             fates[i] = RHO_FATE_INVALID;
         } else if (*count == RHO_MAX_BEARINGS) {
             fates[i] = RHO_FATE_NO_ROOM;
@@ -207,8 +207,8 @@ void rho_batch_compact(struct rho_batch *batch)
 static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned sensor)
 {
     if (batch->num_bearings[scan][sensor] > RHO_MAX_BEARINGS || batch->was_seen[scan][sensor] > 1 ||
-        !rho_angle_are_sector_ends_valid(batch->sector_from_rad[scan][sensor],
-                                         batch->sector_to_rad[scan][sensor])) {
+        !rho_angle_is_valid_sector(batch->sector_from_rad[scan][sensor],
+                                   batch->sector_to_rad[scan][sensor])) {
         return 0;
     }
     for (unsigned i = 0; i < batch->num_bearings[scan][sensor]; i++) {

@@ -10,8 +10,6 @@
 
 /* In struct rho_groups: a row that stands for no plot, no group or no track. */
 #define RHO_NO_ROW UINT16_MAX
-/* Plots from which the extent of a track's body counts as known. */
-#define RHO_BODY_NEW_PLOTS 30.0f
 
 /*
  * plot_groups.c (RHO_BODIES): after tracks were predicted, replaces the step's scan by `grouped`,

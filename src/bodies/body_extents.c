@@ -4,20 +4,11 @@
  */
 #include "rhotrack/body.h"
 
-#include "../tracker/clutter.h"
-#include "../tracker/sensors.h"
-#include "../tracker/step.h"
 #include "bodies.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
-
-/* Prior length of a body of unknown extent, on each axis, as a share of the longest body. */
-#define PRIOR_SHARE 0.5f
-/* Least prior length of a body. */
-#define PRIOR_LEAST_M 0.1f
-/* Least variance of a place on a body in a sound tracker, far below that of the least prior. */
-#define LEAST_M2 1e-7f
 
 float rho_bodies_prior_m2(const struct rho_tracker *tracker)
 {
@@ -70,14 +61,13 @@ int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan 
     const float *velocity = &track->kalman.state[RHO_VX];
     const float state[6] = {plot->x_m, plot->y_m, plot->z_m, velocity[0], velocity[1], velocity[2]};
     if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_predict_range_rate(
-            state, look->sensor, (scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
+        !rho_measurement_predict_rate(state, look->sensor, (scan->measures & RHO_MEASURES_Z) != 0,
+                                      row, &rate_mps)) {
         return 0;
     }
     rate->sight_line[0] = row[3];
     rate->sight_line[1] = row[4];
-    rate->mps =
-        rho_measurement_range_rate_innovation_mps(look->sensor, plot->range_rate_mps, rate_mps);
+    rate->mps = rho_measurement_innovation_mps(look->sensor, plot->range_rate_mps, rate_mps);
     const float turned_mps = (row[3] * row[1] - row[4] * row[0]) * plot->sigma_cross_m;
     rate->line_turn_m2ps2 = turned_mps * turned_mps;
     rate->variance_m2ps2 =
@@ -110,26 +100,6 @@ void rho_bodies_noise_axes(const struct rho_look *look, const struct rho_body_fi
     rho_body_rotate_covariance(body, noise, axes);
 }
 
-/* Sums squared places of a track's plots and the variances of their noise, in the body's axes. */
-static void sum_plots_of_body(const struct rho_look *look, const struct rho_scan *scan,
-                              unsigned row, struct rho_body_look *seen)
-{
-    const struct rho_bodies *bodies = &look->tracker->bodies;
-    struct body_plot at;
-    float axes[3];
-    for (unsigned i = bodies->groups.first[look->tracker->tracks[row].plot]; i != RHO_NO_ROW;
-         i = bodies->groups.next[i]) {
-        (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
-        rho_bodies_noise_axes(look, &bodies->of[row], &scan->plots[i], axes);
-        seen->num_plots++;
-        seen->along_m2 += at.along_m * at.along_m;
-        seen->across_m2 += at.across_m * at.across_m;
-        seen->cross_m2 += at.along_m * at.across_m;
-        seen->noise_along_m2 += axes[0];
-        seen->noise_across_m2 += axes[2];
-    }
-}
-
 void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row)
 {
     const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
@@ -153,7 +123,20 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
             continue;
         }
         rho_bodies_set_heading(tracker, row);
-        sum_plots_of_body(look, scan, row, &seen);
+        const struct rho_bodies *bodies = &tracker->bodies;
+        for (unsigned i = bodies->groups.first[track->plot]; i != RHO_NO_ROW;
+             i = bodies->groups.next[i]) {
+            struct body_plot at;
+            float axes[3];
+            (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
+            rho_bodies_noise_axes(look, &bodies->of[row], &scan->plots[i], axes);
+            seen.num_plots++;
+            seen.along_m2 += at.along_m * at.along_m;
+            seen.across_m2 += at.across_m * at.across_m;
+            seen.cross_m2 += at.along_m * at.across_m;
+            seen.noise_along_m2 += axes[0];
+            seen.noise_across_m2 += axes[2];
+        }
         rho_body_add_plots(&tracker->bodies.of[row], &seen);
     }
 }
@@ -178,25 +161,6 @@ static int is_sound_side(const struct rho_body_side *side)
            rho_is_within(side->prior_share, 0.0f, 1.0f);
 }
 
-static int is_sound_doubt(const struct rho_body_doubt *doubt)
-{
-    const float counts[] = {doubt->looks,  doubt->long_looks,       doubt->steady_looks,
-                            doubt->time_s, doubt->plots_beyond_one, doubt->doubled};
-    const float squares[] = {doubt->far_m2,        doubt->side_m2,          doubt->cross_m2,
-                             doubt->rates_m2ps2,   doubt->far_m2ps,         doubt->side_m2ps,
-                             doubt->side_noise_m2, doubt->rate_noise_m2ps2, doubt->unknown_m2ps2};
-    int is_sound = rho_is_stored_time(doubt->time_us) && rho_is_stored_time(doubt->doubled_us) &&
-                   rho_is_within(doubt->cos_heading, -1.001f, 1.001f) &&
-                   rho_is_within(doubt->sin_heading, -1.001f, 1.001f);
-    for (unsigned i = 0; i < sizeof counts / sizeof *counts; i++) {
-        is_sound &= rho_is_within(counts[i], 0.0f, 1e9f);
-    }
-    for (unsigned i = 0; i < sizeof squares / sizeof *squares; i++) {
-        is_sound &= rho_is_within(squares[i], -1e30f, 1e30f);
-    }
-    return is_sound;
-}
-
 int rho_bodies_are_sound(const struct rho_tracker *tracker)
 {
     const struct rho_bodies *bodies = &tracker->bodies;
@@ -204,17 +168,37 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
         !rho_is_within(bodies->length_max_m, 0.0f, RHO_LIMIT_BODY_M)) {
         return 0;
     }
+    const float least_m2 = 1e-7f; /* far below the least prior */
     for (unsigned i = 0; i < bodies->count; i++) {
         const struct rho_body_filter *body = &bodies->of[i];
-        if (!rho_is_within(body->along_m2, LEAST_M2, 1e12f) ||
-            !rho_is_within(body->across_m2, LEAST_M2, 1e12f) ||
-            !rho_is_within(body->prior_m2, LEAST_M2, 1e12f) || !is_sound_side(&body->along) ||
-            !is_sound_side(&body->across) || !rho_is_within(body->slope, -1e12f, 1e12f) ||
-            !rho_is_within(body->slope_weight, 1e-20f, 1e30f) ||
-            !rho_is_within(body->cos_heading, -1.001f, 1.001f) ||
-            !rho_is_within(body->sin_heading, -1.001f, 1.001f) ||
-            !rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) ||
-            !rho_is_within(body->plots, 1.0f, 1e6f) || !is_sound_doubt(&body->doubt)) {
+        const struct rho_body_doubt *doubt = &body->doubt;
+        const float counts[] = {doubt->looks,  doubt->long_looks,       doubt->steady_looks,
+                                doubt->time_s, doubt->plots_beyond_one, doubt->doubled};
+        const float squares[] = {
+            doubt->far_m2,        doubt->side_m2,          doubt->cross_m2,
+            doubt->rates_m2ps2,   doubt->far_m2ps,         doubt->side_m2ps,
+            doubt->side_noise_m2, doubt->rate_noise_m2ps2, doubt->unknown_m2ps2};
+        const float cosines[] = {body->cos_heading, body->sin_heading, doubt->cos_heading,
+                                 doubt->sin_heading};
+        int is_sound = rho_is_within(body->along_m2, least_m2, 1e12f) &&
+                       rho_is_within(body->across_m2, least_m2, 1e12f) &&
+                       rho_is_within(body->prior_m2, least_m2, 1e12f) &&
+                       is_sound_side(&body->along) && is_sound_side(&body->across) &&
+                       rho_is_within(body->slope, -1e12f, 1e12f) &&
+                       rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
+                       rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
+                       rho_is_within(body->plots, 1.0f, 1e6f) &&
+                       rho_is_stored_time(doubt->time_us) && rho_is_stored_time(doubt->doubled_us);
+        for (unsigned k = 0; k < sizeof counts / sizeof *counts; k++) {
+            is_sound &= rho_is_within(counts[k], 0.0f, 1e9f);
+        }
+        for (unsigned k = 0; k < sizeof squares / sizeof *squares; k++) {
+            is_sound &= rho_is_within(squares[k], -1e30f, 1e30f);
+        }
+        for (unsigned k = 0; k < sizeof cosines / sizeof *cosines; k++) {
+            is_sound &= rho_is_within(cosines[k], -1.001f, 1.001f);
+        }
+        if (!is_sound) {
             return 0;
         }
     }

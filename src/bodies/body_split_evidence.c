@@ -9,90 +9,15 @@
  * are told apart by range rates within a few seconds, long before they are resolved; two cars in
  * one lane, so near that they were taken for one truck, are told apart by their length.
  */
-#include "../tracker/clutter.h"
-#include "../tracker/sensors.h"
-#include "../tracker/step.h"
 #include "bodies.h"
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_extent_filter.h"
 
-/* Memory of the evidence, in looks of several plots: sums fade by 1 / MEMORY_LOOKS each look. */
-#define MEMORY_LOOKS 80.0f
-/*
- * A body is too long where more looks than LONG_LOOKS, and a larger share than LONG_SHARE, extend
- * beyond the longest body by LONG_SIGMAS of a plot: stray plots make fewer.
- */
-#define LONG_LOOKS 4.0f
-#define LONG_SHARE 0.1f
-#define LONG_SIGMAS 4.0f
-/*
- * Largest deviation of a steady heading from its mean, beside one sigma of the heading. Beyond it
- * the sums of range rates begin anew, as parts of a turning body have different range rates.
- */
-#define STEADY_RAD 0.1f
-/* Largest unseen turn of a steady heading, over its tolerance. */
-#define TURN_SHARE 2.0f
-/* Looks with a steady heading after which range rates are judged: a turn is seen by then. */
-#define STEADY_LOOKS 30.0f
-/*
- * Square of the number of sigmas that the velocity across the line of sight and azimuths may be
- * off.
- */
-#define UNKNOWN_SHARE 4.0f
-/* Limit of chi-square in two dimensions; large, as errors of successive looks are correlated. */
-#define APART_CHI2 40.0f
-/* Least variance of places across the line of sight, as a share of their noise. */
-#define SIDE_SHARE 0.2f
-/* Least 1 - correlation^2 of places in two axes, for a plane to be fitted to the range rates. */
-#define PLANE_SHARE 0.1f
-
 static float heading_tolerance_rad(const struct rho_body_filter *body)
 {
     return STEADY_RAD + body->heading_sigma_rad;
-}
-
-static void clear_range_rate_sums(struct rho_body_doubt *doubt, const struct rho_body_filter *body)
-{
-    *doubt = (struct rho_body_doubt){.looks = doubt->looks,
-                                     .long_looks = doubt->long_looks,
-                                     .cos_heading = body->cos_heading,
-                                     .sin_heading = body->sin_heading,
-                                     .time_us = doubt->time_us,
-                                     .doubled = doubt->doubled,
-                                     .doubled_us = doubt->doubled_us};
-}
-
-/*
- * Fades all sums by one look and counts it; clears those of range rates where the body has turned.
- */
-static void fade_doubt_by_one_look(struct rho_body_doubt *doubt, const struct rho_body_filter *body,
-                                   float passed_s)
-{
-    const float share = 1.0f - 1.0f / MEMORY_LOOKS;
-    doubt->looks = share * doubt->looks + 1.0f;
-    doubt->long_looks *= share;
-    const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
-                                                  rho_atan2(body->sin_heading, body->cos_heading));
-    if (doubt->plots_beyond_one <= 0.0f || turned_rad > heading_tolerance_rad(body) ||
-        turned_rad < -heading_tolerance_rad(body)) {
-        clear_range_rate_sums(doubt, body);
-        return;
-    }
-    doubt->steady_looks *= share;
-    doubt->time_s = share * doubt->time_s + passed_s;
-    doubt->cos_heading += (1.0f - share) * (body->cos_heading - doubt->cos_heading);
-    doubt->sin_heading += (1.0f - share) * (body->sin_heading - doubt->sin_heading);
-    doubt->plots_beyond_one *= share;
-    doubt->far_m2 *= share;
-    doubt->side_m2 *= share;
-    doubt->cross_m2 *= share;
-    doubt->rates_m2ps2 *= share;
-    doubt->side_noise_m2 *= share;
-    doubt->far_m2ps *= share;
-    doubt->side_m2ps *= share;
-    doubt->rate_noise_m2ps2 *= share;
-    doubt->unknown_m2ps2 *= share;
 }
 
 /*
@@ -105,8 +30,8 @@ struct look_sums {
     float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
 };
 
-static struct look_sums sum_look_of_body(const struct rho_look *look, const struct rho_scan *scan,
-                                         unsigned row)
+static struct look_sums sum_look(const struct rho_look *look, const struct rho_scan *scan,
+                                 unsigned row)
 {
     const struct rho_bodies *bodies = &look->tracker->bodies;
     struct look_sums sums = {.first_m = 1e9f, .last_m = -1e9f};
@@ -144,26 +69,12 @@ static struct look_sums sum_look_of_body(const struct rho_look *look, const stru
     return sums;
 }
 
-/* Turn rate that one sigma of the velocity across the line of sight adds to range rates, rad/s. */
-static float apparent_turn_sigma_radps(const struct rho_look *look, const struct rho_track *track)
-{
-    const float x_m = track->kalman.state[RHO_X] - (look->sensor ? look->sensor->x_m : 0.0f),
-                y_m = track->kalman.state[RHO_Y] - (look->sensor ? look->sensor->y_m : 0.0f);
-    return rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
-}
-
-static int is_longer_than_any_body(const struct rho_tracker *tracker, const struct look_sums *sums)
-{
-    return sums->last_m - sums->first_m >
-           tracker->bodies.length_max_m + LONG_SIGMAS * rho_sqrt(sums->noise_m2);
-}
-
 void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
                           const struct rho_scan *scan, unsigned row)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
     struct rho_body_doubt *doubt = &body->doubt;
-    const struct look_sums sums = sum_look_of_body(look, scan, row);
+    const struct look_sums sums = sum_look(look, scan, row);
     const float passed_s =
         doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, look->time_us) : 0.0f;
     if (sums.n < 2.0f || !body->has_heading) {
@@ -171,16 +82,54 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
     }
     const float mean = 1.0f / sums.n;
     doubt->time_us = look->time_us;
-    fade_doubt_by_one_look(doubt, body, passed_s);
-    doubt->long_looks += is_longer_than_any_body(tracker, &sums) ? 1.0f : 0.0f;
-    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE) || body->plots < RHO_BODY_NEW_PLOTS) {
+    const float share = 1.0f - 1.0f / DOUBT_MEMORY;
+    doubt->looks = share * doubt->looks + 1.0f;
+    doubt->long_looks *= share;
+    const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
+                                                  rho_atan2(body->sin_heading, body->cos_heading));
+    if (doubt->plots_beyond_one <= 0.0f || turned_rad > heading_tolerance_rad(body) ||
+        turned_rad < -heading_tolerance_rad(body)) {
+        /* the sums of range rates begin anew: parts of a turning body have different ones */
+        *doubt = (struct rho_body_doubt){.looks = doubt->looks,
+                                         .long_looks = doubt->long_looks,
+                                         .cos_heading = body->cos_heading,
+                                         .sin_heading = body->sin_heading,
+                                         .time_us = doubt->time_us,
+                                         .doubled = doubt->doubled,
+                                         .doubled_us = doubt->doubled_us};
+    } else {
+        doubt->steady_looks *= share;
+        doubt->time_s = share * doubt->time_s + passed_s;
+        doubt->cos_heading += (1.0f - share) * (body->cos_heading - doubt->cos_heading);
+        doubt->sin_heading += (1.0f - share) * (body->sin_heading - doubt->sin_heading);
+        doubt->plots_beyond_one *= share;
+        doubt->far_m2 *= share;
+        doubt->side_m2 *= share;
+        doubt->cross_m2 *= share;
+        doubt->rates_m2ps2 *= share;
+        doubt->side_noise_m2 *= share;
+        doubt->far_m2ps *= share;
+        doubt->side_m2ps *= share;
+        doubt->rate_noise_m2ps2 *= share;
+        doubt->unknown_m2ps2 *= share;
+    }
+    if (sums.last_m - sums.first_m >
+        tracker->bodies.length_max_m + BODY_ERROR_SIGMAS * rho_sqrt(sums.noise_m2)) {
+        doubt->long_looks += 1.0f;
+    }
+    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE) || body->plots < SETTLED_LOOKS) {
         return; /* the velocity of a new track is too uncertain for its range rates to be judged */
     }
     doubt->steady_looks += 1.0f;
     doubt->plots_beyond_one += sums.n - 1.0f;
     doubt->far_m2 += sums.far2 - mean * sums.far * sums.far;
     const float side_m2 = sums.side2 - mean * sums.side * sums.side;
-    const float turned_radps = apparent_turn_sigma_radps(look, &tracker->tracks[row]);
+    /* one sigma of the velocity across the line of sight adds this turn to range rates */
+    const struct rho_track *track = &tracker->tracks[row];
+    const float x_m = track->kalman.state[RHO_X] - (look->sensor ? look->sensor->x_m : 0.0f),
+                y_m = track->kalman.state[RHO_Y] - (look->sensor ? look->sensor->y_m : 0.0f);
+    const float turned_radps =
+        rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
     doubt->side_m2 += side_m2;
     doubt->unknown_m2ps2 +=
         turned_radps * turned_radps * side_m2 + (1.0f - mean) * sums.line_turn_m2ps2;
@@ -197,32 +146,30 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
  * than noise, an unseen turn and errors of the velocity and of azimuths do, the plots are of two
  * targets. Wheels and other moving parts raise the noise, which is taken from the residuals.
  */
-static int parts_move_apart(const struct rho_body_filter *body)
+enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row)
 {
+    const struct rho_body_filter *body = &tracker->bodies.of[row];
     const struct rho_body_doubt *doubt = &body->doubt;
+    if (doubt->long_looks > LONG_LOOKS && doubt->long_looks > LONG_SHARE * doubt->looks) {
+        return RHO_BODY_TOO_LONG;
+    }
     const float det = doubt->far_m2 * doubt->side_m2 - doubt->cross_m2 * doubt->cross_m2;
-    if (doubt->steady_looks < STEADY_LOOKS ||
+    if (doubt->steady_looks < SETTLED_LOOKS ||
         !(det > PLANE_SHARE * doubt->far_m2 * doubt->side_m2)) {
-        return 0;
+        return RHO_BODY_ONE;
     }
     const float far = doubt->far_m2ps, side = doubt->side_m2ps;
     const float explained = (doubt->side_m2 * far * far - 2.0f * doubt->cross_m2 * far * side +
                              doubt->far_m2 * side * side) /
                             det;
     const float noise = rho_larger(doubt->rate_noise_m2ps2, doubt->rates_m2ps2 - explained);
-    const float turn_radps = TURN_SHARE * heading_tolerance_rad(body) / (doubt->time_s + 1e-6f);
+    const float turn_radps =
+        UNSEEN_TURN_SHARE * heading_tolerance_rad(body) / (doubt->time_s + 1e-6f);
     const float side_m2 =
         rho_larger(doubt->side_m2 - doubt->side_noise_m2, SIDE_SHARE * doubt->side_noise_m2);
-    return explained * doubt->plots_beyond_one > APART_CHI2 * noise &&
-           explained > doubt->rate_noise_m2ps2 &&
-           explained > turn_radps * turn_radps * side_m2 + UNKNOWN_SHARE * doubt->unknown_m2ps2;
-}
-
-enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row)
-{
-    const struct rho_body_doubt *doubt = &tracker->bodies.of[row].doubt;
-    if (doubt->long_looks > LONG_LOOKS && doubt->long_looks > LONG_SHARE * doubt->looks) {
-        return RHO_BODY_TOO_LONG;
-    }
-    return parts_move_apart(&tracker->bodies.of[row]) ? RHO_BODY_MOVES_APART : RHO_BODY_ONE;
+    const int moves_apart = explained * doubt->plots_beyond_one > APART_CHI2 * noise &&
+                            explained > doubt->rate_noise_m2ps2 &&
+                            explained > turn_radps * turn_radps * side_m2 +
+                                            LOOSE_SIGMAS * LOOSE_SIGMAS * doubt->unknown_m2ps2;
+    return moves_apart ? RHO_BODY_MOVES_APART : RHO_BODY_ONE;
 }

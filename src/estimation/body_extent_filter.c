@@ -1,59 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/detail/body_extent_filter.h"
 
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
-/* Memory of a body's variances, as a weight: 500 plots without noise. */
-#define WEIGHT_MOST 2500.0f
-/* Speed, in standard deviations, above which the velocity gives the body's heading. */
-#define HEADING_SIGMAS 3.0f
-/*
- * Actual variance of velocities' directions, as a share of what filters that expect manoeuvres
- * state.
- */
-#define TURNED_SHARE 0.3f
-/* Looks over which an error of the heading stays the same. */
-#define TURNED_LOOKS 10.0f
-/*
- * Half the variance of the square of a place on a body, over its squared variance: 0.4 for places
- * uniform on the body, and half of that, as most scatterers are the same from look to look.
- */
-#define SQUARES_OF_BODY 0.2f
-/* Share of scatterers that are elsewhere on their part of the body at each look. */
-#define ANEW_SHARE 0.5f
-/* Weight at which half of the prior's length is still added for gates: 4 plots without noise. */
-#define FEW_WEIGHT 20.0f
-/* Ratio of length to width of a body of which only the heading is known. */
-#define ASPECT_PRIOR 3.0f
-/* Weights of the priors of length, next to nothing, and width, which is known to some 30 %. */
-#define PRIOR_WEIGHT 0.3f
-#define WIDTH_PRIOR_WEIGHT 6.0f
-/* Usual ratio of length to width, by which plots are weighted. */
-#define ASPECT_USUAL 4.0f
-/* Largest ratio of length to width. */
-#define ASPECT_MAX 16.0f
-/*
- * Squares, in variances of a place, that a stray plot or a wrong first heading may add to the sum
- * over n plots.
- */
-#define STRAY_SQUARES 12.0f
-/*
- * Prior weight, 1 / variance, of the slope of a body's scatterers: 5 scatterers on a body 6 times
- * as long as wide.
- */
-#define SLOPE_WEIGHT 144.0f
-/*
- * Correction of a length's sigma for few scatterers: the sigma of a body that looks too short is
- * too small.
- */
-#define FEW_PLACES 8.4f
-/* Least number of plots, after those used up by the heading's error, that update the width. */
-#define LEAST_PLOTS 0.1f
-/* Largest count of a body's plots, and memory of its slope in plots. */
-#define PLOTS_MOST 500.0f
-/* Least variance of a place on a body, m^2: a length of 0.1 m. */
-#define LEAST_M2 1e-3f
+/* Memory of a body's variances, as a weight. */
+#define WEIGHT_MOST (PLOTS_MOST / SQUARES_OF_BODY)
 
 /* Extent along one axis of a body before any plot: the prior's variance. */
 static struct rho_body_side prior_side(float m2, float weight)
@@ -112,9 +65,10 @@ void rho_body_rotate_covariance(const struct rho_body_filter *body, const float 
     axes[2] = s * s * xx - 2.0f * c * s * yx + c * c * yy;
 }
 
-float rho_body_along_variance_bound_m2(const struct rho_body_filter *body)
+float rho_body_along_bound_m2(const struct rho_body_filter *body)
 {
-    return body->along_m2 + body->prior_m2 * (FEW_WEIGHT / (FEW_WEIGHT + body->along.weight));
+    const float few = FEW_PLOTS / SQUARES_OF_BODY;
+    return body->along_m2 + body->prior_m2 * (few / (few + body->along.weight));
 }
 
 void rho_body_place_covariance(const struct rho_body_filter *body, float xx_yx_yy[3])
@@ -136,12 +90,7 @@ static float floored_along_m2(const struct rho_body_filter *body)
     return rho_larger(body->along_m2, body->prior_m2 / 16.0f);
 }
 
-static float across_variance_of_usual_length_to_width_m2(const struct rho_body_filter *body)
-{
-    return floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
-}
-
-float rho_body_share_of_variance_of_plot_mean(const struct rho_body_filter *body, unsigned n)
+float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned n)
 {
     const float most = (float)(n > body->most_plots ? n : body->most_plots);
     if (n <= 1) {
@@ -169,7 +118,7 @@ static void update_side(struct rho_body_side *side, float usual_m2, float seen_m
                         float n)
 {
     const float more = n / relative_square_variance(usual_m2, own_m2);
-    const float v_m2 = rho_larger(side->mean_m2, LEAST_M2);
+    const float v_m2 = rho_larger(side->mean_m2, PLACE_LEAST_M2);
     side->weight *= more < WEIGHT_MOST ? 1.0f - more / WEIGHT_MOST : 0.0f;
     side->weight += more;
     const float gain = more / side->weight;
@@ -178,40 +127,6 @@ static void update_side(struct rho_body_side *side, float usual_m2, float seen_m
     side->variance_m4 =
         (1.0f - gain) * (1.0f - gain) * side->variance_m4 +
         gain * gain * 2.0f / n * v_m2 * v_m2 * relative_square_variance(v_m2, own_m2);
-}
-
-/*
- * Updates the extent across the body. An error of the heading turns all plots of a look about the
- * reference point: their apparent slope is the sum of the scatterers' own slope (learned, as it
- * lasts) and of this error, whose expected share is subtracted.
- */
-static void update_across_extent_and_slope(struct rho_body_filter *body,
-                                           const struct rho_body_look *look, float n)
-{
-    const float usual_m2 = across_variance_of_usual_length_to_width_m2(body),
-                noise_m2 = look->noise_across_m2 / n;
-    const float missed = rho_body_share_of_variance_of_plot_mean(body, look->num_plots);
-    const float along_m2 = rho_larger(look->along_m2, n * LEAST_M2);
-    const float slope = look->cross_m2 / along_m2;
-    const float slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
-    const float turned = mean_square_heading_error(body);
-    const float k = turned / (turned + slope_variance);
-    const float off = slope - body->slope, left = (1.0f - k) * (1.0f - k) * turned;
-    /* number of plots whose information is used up by the heading's error */
-    const float gone = 2.0f * k - k * k;
-    const float squares_m2 = look->across_m2 - 2.0f * k * off * look->cross_m2 +
-                             k * k * along_m2 * (off * off + 1.0f / body->slope_weight);
-    const float own_m2 = noise_m2 + left * body->along_m2;
-    const float most_m2 = (n + STRAY_SQUARES) * (rho_larger(usual_m2, body->across_m2) + own_m2);
-    const float sum_m2 = rho_smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
-    if (n - gone > LEAST_PLOTS) {
-        update_side(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2,
-                    own_m2, n - gone);
-    }
-    const float more = 1.0f / (slope_variance + TURNED_LOOKS * turned);
-    body->slope_weight *= 1.0f - rho_smaller(n / PLOTS_MOST, 1.0f);
-    body->slope_weight += more;
-    body->slope += more / body->slope_weight * off;
 }
 
 void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look *look)
@@ -226,8 +141,36 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
     const float along_m2 =
         look->noise_along_m2 / n + mean_square_heading_error(body) * body->across_m2;
     update_side(&body->along, floored_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
-    body->along_m2 = rho_larger(body->along.mean_m2, LEAST_M2);
-    update_across_extent_and_slope(body, look, n);
+    body->along_m2 = rho_larger(body->along.mean_m2, PLACE_LEAST_M2);
+    /*
+     * An error of the heading turns all plots of a look about the reference point: their apparent
+     * slope is the sum of the scatterers' own slope (learned, as it lasts) and of this error, whose
+     * expected share is subtracted.
+     */
+    const float usual_m2 = floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
+    const float noise_m2 = look->noise_across_m2 / n;
+    const float missed = rho_body_mean_variance_share(body, look->num_plots);
+    const float sum_along_m2 = rho_larger(look->along_m2, n * PLACE_LEAST_M2);
+    const float slope = look->cross_m2 / sum_along_m2;
+    const float slope_variance = (noise_m2 + missed * usual_m2) / sum_along_m2;
+    const float turned = mean_square_heading_error(body);
+    const float k = turned / (turned + slope_variance);
+    const float off = slope - body->slope, left = (1.0f - k) * (1.0f - k) * turned;
+    /* number of plots whose information is used up by the heading's error */
+    const float gone = 2.0f * k - k * k;
+    const float squares_m2 = look->across_m2 - 2.0f * k * off * look->cross_m2 +
+                             k * k * sum_along_m2 * (off * off + 1.0f / body->slope_weight);
+    const float own_m2 = noise_m2 + left * body->along_m2;
+    const float most_m2 = (n + STRAY_SQUARES) * (rho_larger(usual_m2, body->across_m2) + own_m2);
+    const float sum_m2 = rho_smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
+    if (n - gone > LEAST_PLOTS) {
+        update_side(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2,
+                    own_m2, n - gone);
+    }
+    const float more = 1.0f / (slope_variance + TURNED_LOOKS * turned);
+    body->slope_weight *= 1.0f - rho_smaller(n / PLOTS_MOST, 1.0f);
+    body->slope_weight += more;
+    body->slope += more / body->slope_weight * off;
     body->across_m2 = rho_larger(body->across.mean_m2, body->along_m2 / (ASPECT_MAX * ASPECT_MAX));
     body->plots = rho_smaller(body->plots + n, PLOTS_MOST);
 }

@@ -9,49 +9,12 @@
 #include <string.h>
 
 #include "imm_axis_access.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
-
-/* Predicted variances are raised by thirty-two units of rounding, as in kalman.c. */
-#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 524288.0f)
-
-#define STEP_MAX_S 1.0e5f
-
-/* ---- models ---------------------------------------------------------------------------------- */
-
-/*
- * Manoeuvring model's acceleration sd (a share of accel_max), memory, and mean times in each model,
- * tuned with targets that manoeuvre at 1 to 30 g for 4 to 8 s. The times of slower targets are
- * proportional to their turning time v_max / accel_max.
- */
-#define ACCEL_SHARE 0.8f
-#define MEMORY_SHARE 0.35f
-#define MEMORY_MIN_S 3.0f
-#define SOJOURN_SHARE 0.47f
-#define SOJOURN_MIN_S 4.0f
-#define TURN_MAX_S 1000.0f
-
-/*
- * Noise of the steady model: a velocity sd of a share of accel_max after 1 s; with upper limits for
- * agile and for calm targets, m^2/s^3.
- */
-#define QUIET_DENSITY 1.0f
-#define CALM_DENSITY 0.003f
-#define QUIET_SHARE 0.05f
-
-/* Mean time until an agile target that flies straight becomes calm. */
-#define SETTLE_S 60.0f
-
-/*
- * Odds of the manoeuvring model below which it is not mixed into the steady one: even a small share
- * would add the squared difference of the models to the steady variance at each scan, and straight
- * targets would stay uncertain. A bound on the probability would not do, as it hardly falls between
- * fast scans.
- */
-#define ODDS_OVER 0.16f
 
 void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps)
 {
-    const float accel = ACCEL_SHARE * accel_max_mps2, quiet = QUIET_SHARE * accel_max_mps2;
+    const float accel = DRIVE_SHARE * accel_max_mps2, quiet = QUIET_SHARE * accel_max_mps2;
     const float turn_s =
         accel_max_mps2 * TURN_MAX_S > v_max_mps ? v_max_mps / accel_max_mps2 : TURN_MAX_S;
     const float memory_s = MEMORY_SHARE * turn_s, sojourn_s = SOJOURN_SHARE * turn_s;
@@ -84,8 +47,6 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model)
            rho_is_within(model->speed_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS);
 }
 
-/* ---- what an interval does ------------------------------------------------------------------- */
-
 /*
  * Weights and nodes of Gauss-Legendre quadrature with four points on 0 .. 1: exact to the seventh
  * power.
@@ -113,8 +74,7 @@ static void acceleration_response(float t_s, float memory_s, float out[3])
     out[2] = 1.0f - x * (1.0f - x * rest);
 }
 
-static void fill_acceleration_response_and_noise(struct rho_imm_step *step,
-                                                 const struct rho_imm_model *model, float dt_s)
+static void set_response(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
 {
     float response[3];
     acceleration_response(dt_s, model->memory_s, response);
@@ -123,7 +83,7 @@ static void fill_acceleration_response_and_noise(struct rho_imm_step *step,
     step->accel_by_accel = response[2];
     memset(step->noise, 0, sizeof step->noise);
     for (int k = 0; dt_s > 0.0f && k < 4; k++) {
-        float weight = gauss_weight[k] * dt_s * model->drive_density;
+        const float weight = gauss_weight[k] * dt_s * model->drive_density;
         acceleration_response(gauss_node[k] * dt_s, model->memory_s, response);
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j <= i; j++) {
@@ -150,10 +110,7 @@ static inline void propagate_axis_covariance(struct axis *at, struct accel *by,
     by->aa = h * h * by->aa;
 }
 
-/*
- * Doubles the interval of the manoeuvring model's transition, with its process noise: two steps in
- * a row.
- */
+/* Doubles the interval of the manoeuvring model's transition: two steps in a row. */
 static void double_step(struct rho_imm_step *step)
 {
     float *noise = step->noise;
@@ -184,8 +141,7 @@ static float change_probability(float dt_s, float mean_s)
  * target is counted even if it has ended within the step: after a long gap no other term holds its
  * effect. The mean time between manoeuvres of a calm target is at least that of an agile one.
  */
-static void set_transition_probabilities(struct rho_imm_step *step,
-                                         const struct rho_imm_model *model)
+static void set_transitions(struct rho_imm_step *step, const struct rho_imm_model *model)
 {
     const float begins = step->dt_s / model->steady_s, ends = step->dt_s / model->maneuver_s;
     step->begins = step->ends = step->calm_begins = step->settles = step->odds_over = 0.0f;
@@ -212,7 +168,7 @@ void rho_imm_prepare_step(struct rho_imm_step *step, const struct rho_imm_model 
         step->dt_s *= 0.5f;
         doublings++;
     }
-    fill_acceleration_response_and_noise(step, model, step->dt_s);
+    set_response(step, model, step->dt_s);
     for (; doublings > 0; doublings--) {
         double_step(step);
     }
@@ -223,10 +179,8 @@ void rho_imm_prepare_step(struct rho_imm_step *step, const struct rho_imm_model 
     step->quiet_noise[0] = noisy_s * noisy_s * noisy_s * (1.0f / 3.0f);
     step->quiet_noise[1] = 0.5f * noisy_s * noisy_s;
     step->quiet_noise[2] = noisy_s;
-    set_transition_probabilities(step, model);
+    set_transitions(step, model);
 }
-
-/* ---- start ----------------------------------------------------------------------------------- */
 
 void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
                    const struct rho_kalman *estimate)
@@ -235,13 +189,13 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
     imm->steady = *estimate;
     memcpy(imm->state, estimate->state, sizeof estimate->state);
     memcpy(imm->covariance, estimate->covariance, sizeof estimate->covariance);
-    for (int axis = 0; axis < NUM_AXES; axis++) {
-        if (rho_kalman_has_estimate_on_axis(estimate, axis)) {
+    for (int axis = 0; axis < RHO_AXES; axis++) {
+        if (rho_kalman_has_axis(estimate, axis)) {
             imm->covariance[COVARIANCE_AT(axis, 2, axis, 2)] =
-                model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_KALMAN_VARIANCE_MIN;
+                model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_VARIANCE_MIN;
         }
     }
-    for (int axis = 1; axis < NUM_AXES; axis++) {
+    for (int axis = 1; axis < RHO_AXES; axis++) {
         for (int other = 0; other < axis; other++) {
             for (int k = 0; k < 4; k++) {
                 float covariance = estimate->covariance[COVARIANCE_AT(axis, k / 2, other, k % 2)];
@@ -252,8 +206,6 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
     imm->probability = 0.5f;
     imm->calm = model->calm_s / (model->calm_s + RHO_IMM_CALM_S);
 }
-
-/* ---- mix ------------------------------------------------------------------------------------- */
 
 /*
  * Weights of one model's mixed moments: of the model itself, of the other one, and of the product
@@ -300,8 +252,8 @@ static inline float mixed_moment(const struct mixing *by, float own, float other
 }
 
 /* Mixes the estimates of both models on one axis. */
-static inline void mix_models_on_axis(struct axis *steady, struct axis *manoeuvre,
-                                      struct accel *more, const struct mixing_weights *by)
+static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct accel *more,
+                            const struct mixing_weights *by)
 {
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
     const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = more->a;
@@ -325,10 +277,9 @@ static inline void mix_models_on_axis(struct axis *steady, struct axis *manoeuvr
 }
 
 /* Mixes both models' covariances of two axes; a, b: differences of the models on these axes. */
-static inline void mix_models_on_axis_pair(struct axis_pair *steady, struct axis_pair *manoeuvre,
-                                           const struct model_difference *a,
-                                           const struct model_difference *b,
-                                           const struct mixing_weights *by)
+static inline void mix_axis_pair(struct axis_pair *steady, struct axis_pair *manoeuvre,
+                                 const struct model_difference *a, const struct model_difference *b,
+                                 const struct mixing_weights *by)
 {
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
     const struct axis_pair was = *steady;
@@ -348,89 +299,17 @@ static inline void mix_models_on_axis_pair(struct axis_pair *steady, struct axis
     manoeuvre->aa = m->own * manoeuvre->aa + m->spread * a->a * b->a;
 }
 
-/* ---- predict --------------------------------------------------------------------------------- */
-
-/* Raises a predicted variance by the rounding allowance, and to the least variance. */
-static inline float with_rounding_margin_and_floor(float variance)
+/* A variance raised by thirty-two units of rounding, as in kalman.c, and to the least; or NaN. */
+static inline float predicted_variance(float variance)
 {
-    const float higher = variance * ROUNDING_ALLOWANCE;
-    return higher < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : higher;
-}
-
-/* Predicts one axis of the manoeuvring model: F x and F P F^T + Q. */
-static inline void predict_manoeuvre_axis(struct axis *at, struct accel *by,
-                                          const struct rho_imm_step *step)
-{
-    at->p += step->dt_s * at->v + step->position_by_accel * by->a;
-    at->v += step->velocity_by_accel * by->a;
-    by->a *= step->accel_by_accel;
-    propagate_axis_covariance(at, by, step);
-    at->pp = with_rounding_margin_and_floor(at->pp + step->noise[0]);
-    at->vp += step->noise[1];
-    at->vv = with_rounding_margin_and_floor(at->vv + step->noise[2]);
-    by->ap += step->noise[3];
-    by->av += step->noise[4];
-    by->aa = with_rounding_margin_and_floor(by->aa + step->noise[5]);
-}
-
-/* Predicts one axis of the steady model: F x and F P F^T + Q. */
-static inline void predict_steady_axis(struct axis *at, float dt,
-                                       const float noise[RHO_TRIANGLE(2)])
-{
-    at->p += dt * at->v;
-    at->pp = with_rounding_margin_and_floor(at->pp + dt * (2.0f * at->vp + dt * at->vv) + noise[0]);
-    at->vp += dt * at->vv + noise[1];
-    at->vv = with_rounding_margin_and_floor(at->vv + noise[2]);
-}
-
-/* Checks of a prediction: states must be finite, and variances within their limit. */
-struct prediction_checks {
-    float state_sum;
-    int is_good;
-};
-
-static inline int are_within_limits(const struct prediction_checks *checks)
-{
-    return checks->is_good && checks->state_sum >= -FLT_MAX && checks->state_sum <= FLT_MAX;
-}
-
-/*
- * Predicts one axis of both models, after mixing them if `by` is given. quiet_noise: process noise
- * of the steady model.
- */
-static void mix_and_predict_axis(struct rho_imm *imm, int axis, const struct mixing_weights *by,
-                                 const struct rho_imm_step *step,
-                                 const float quiet_noise[RHO_TRIANGLE(2)],
-                                 struct prediction_checks *checks)
-{
-    struct rho_kalman *kalman = &imm->steady;
-    if (!has_estimate_on_axis(imm, axis)) {
-        /* NaN: neither open nor closed */
-        checks->is_good &= imm->covariance[RHO_AT(axis, axis)] >= 0.0f;
-        return;
-    }
-    struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
-    struct axis manoeuvre = load_axis(imm->state, imm->covariance, axis);
-    struct accel more = load_accel(imm, axis);
-    if (by) {
-        mix_models_on_axis(&steady, &manoeuvre, &more, by);
-    }
-    predict_steady_axis(&steady, step->dt_s, quiet_noise);
-    predict_manoeuvre_axis(&manoeuvre, &more, step);
-    store_axis(kalman->state, kalman->covariance, axis, &steady);
-    store_axis(imm->state, imm->covariance, axis, &manoeuvre);
-    store_accel(imm, axis, &more);
-    checks->is_good &= steady.pp + steady.vv <= RHO_KALMAN_VARIANCE_MAX;
-    checks->is_good &= manoeuvre.pp + manoeuvre.vv + more.aa <= RHO_KALMAN_VARIANCE_MAX;
-    checks->state_sum += steady.p + steady.v + manoeuvre.p + manoeuvre.v + more.a;
+    return rho_larger(RHO_VARIANCE_MIN, variance * (1.0f + RHO_ROUNDING_UNITS(32)));
 }
 
 /*
  * Predicts the manoeuvring model's covariances of two axes, F C F^T: three columns, then three
  * rows.
  */
-static inline void predict_manoeuvre_cross_covariances(struct axis_pair *at,
-                                                       const struct rho_imm_step *step)
+static inline void propagate_cross_covariance(struct axis_pair *at, const struct rho_imm_step *step)
 {
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
                 h = step->accel_by_accel;
@@ -451,22 +330,12 @@ static inline void predict_manoeuvre_cross_covariances(struct axis_pair *at,
     };
 }
 
-/* Predicts the steady model's covariances of two axes, F C F^T. */
-static inline void predict_steady_cross_covariances(struct axis_pair *at, float dt_s)
-{
-    const float pv = at->pv + dt_s * at->vv;
-    at->vp += dt_s * at->vv;
-    at->pp += dt_s * (at->pv + at->vp);
-    at->pv = pv;
-}
-
-static inline struct model_difference model_state_difference_on_axis(const struct rho_imm *imm,
-                                                                     int axis)
+static inline struct model_difference model_difference(const struct rho_imm *imm, int axis)
 {
     return (struct model_difference){
         .p = imm->state[axis] - imm->steady.state[axis],
-        .v = imm->state[NUM_AXES + axis] - imm->steady.state[NUM_AXES + axis],
-        .a = imm->state[2 * NUM_AXES + axis],
+        .v = imm->state[RHO_AXES + axis] - imm->steady.state[RHO_AXES + axis],
+        .a = imm->state[2 * RHO_AXES + axis],
     };
 }
 
@@ -474,76 +343,103 @@ static inline struct model_difference model_state_difference_on_axis(const struc
  * Predicts both models' covariances of an axis with an earlier one; called before the axes
  * themselves are mixed, as mixing needs their differences.
  */
-static void mix_and_predict_cross_covariances(struct rho_imm *imm, int axis, int other,
-                                              const struct mixing_weights *by,
-                                              const struct rho_imm_step *step)
+static void predict_cross_covariance(struct rho_imm *imm, int axis, int other,
+                                     const struct mixing_weights *by,
+                                     const struct rho_imm_step *step)
 {
     float *p = imm->covariance, *q = imm->steady.covariance;
     const uint8_t *rows = pair_rows[axis + other - 1];
     struct axis_pair steady = load_steady_axis_pair(q, rows), manoeuvre = load_axis_pair(p, rows);
     if (by) {
-        const struct model_difference a = model_state_difference_on_axis(imm, axis),
-                                      b = model_state_difference_on_axis(imm, other);
-        mix_models_on_axis_pair(&steady, &manoeuvre, &a, &b, by);
+        const struct model_difference a = model_difference(imm, axis),
+                                      b = model_difference(imm, other);
+        mix_axis_pair(&steady, &manoeuvre, &a, &b, by);
     }
-    predict_steady_cross_covariances(&steady, step->dt_s);
-    predict_manoeuvre_cross_covariances(&manoeuvre, step);
+    const float pv = steady.pv + step->dt_s * steady.vv;
+    steady.vp += step->dt_s * steady.vv;
+    steady.pp += step->dt_s * (steady.pv + steady.vp);
+    steady.pv = pv;
+    propagate_cross_covariance(&manoeuvre, step);
     store_steady_axis_pair(q, rows, &steady);
     store_axis_pair(p, rows, &manoeuvre);
 }
 
-static void mix_and_predict_all_cross_covariances(struct rho_imm *imm,
-                                                  const struct mixing_weights *by,
-                                                  const struct rho_imm_step *step)
+/* The models are mixed before the prediction if their weights are given. */
+static enum rho_status predict_models(struct rho_imm *imm, const struct rho_imm_step *step,
+                                      const struct mixing_weights *by)
 {
-    mix_and_predict_cross_covariances(imm, RHO_Y, RHO_X, by, step);
-    if (has_estimate_on_axis(imm, RHO_Z)) {
-        mix_and_predict_cross_covariances(imm, RHO_Z, RHO_X, by, step);
-        mix_and_predict_cross_covariances(imm, RHO_Z, RHO_Y, by, step);
-    }
-}
-
-static enum rho_status predict_both_models(struct rho_imm *imm, const struct rho_imm_step *step,
-                                           int may_mix)
-{
-    struct prediction_checks checks = {0.0f, 1};
-    struct mixing_weights by;
-    const struct mixing_weights *mixing = 0;
-    if (!imm || !step) {
-        return RHO_ERROR_NULL;
-    }
-    if (!(step->dt_s >= -STEP_MAX_S && step->dt_s <= STEP_MAX_S)) {
+    if (!(step->dt_s >= -RHO_KALMAN_STEP_MAX_S && step->dt_s <= RHO_KALMAN_STEP_MAX_S)) {
         return RHO_ERROR_VALUE;
     }
-    if (may_mix && step->begins + step->ends > 0.0f) {
-        by = update_markov_chain(imm, step);
-        mixing = &by;
-    }
     if (imm->is_coupled) {
-        mix_and_predict_all_cross_covariances(imm, mixing, step);
+        predict_cross_covariance(imm, RHO_Y, RHO_X, by, step);
+        if (has_estimate_on_axis(imm, RHO_Z)) {
+            predict_cross_covariance(imm, RHO_Z, RHO_X, by, step);
+            predict_cross_covariance(imm, RHO_Z, RHO_Y, by, step);
+        }
     }
+    struct rho_kalman *kalman = &imm->steady;
+    const float dt = step->dt_s, *noise = step->noise;
     const float density =
         step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);
     const float quiet_noise[RHO_TRIANGLE(2)] = {density * step->quiet_noise[0],
                                                 density * step->quiet_noise[1],
                                                 density * step->quiet_noise[2]};
-    for (int axis = 0; axis < NUM_AXES; axis++) {
-        mix_and_predict_axis(imm, axis, mixing, step, quiet_noise, &checks);
+    float state_sum = 0.0f; /* finite if all states are */
+    int is_good = 1;
+    for (int axis = 0; axis < RHO_AXES; axis++) {
+        if (!has_estimate_on_axis(imm, axis)) {
+            /* NaN: neither open nor closed */
+            is_good &= imm->covariance[RHO_AT(axis, axis)] >= 0.0f;
+            continue;
+        }
+        struct axis at = load_axis(kalman->state, kalman->covariance, axis);
+        struct axis manoeuvre = load_axis(imm->state, imm->covariance, axis);
+        struct accel more = load_accel(imm, axis);
+        if (by) {
+            mix_axis(&at, &manoeuvre, &more, by);
+        }
+        /* F x and F P F^T + Q, of the steady model, then of the manoeuvring one */
+        at.p += dt * at.v;
+        at.pp = predicted_variance(at.pp + dt * (2.0f * at.vp + dt * at.vv) + quiet_noise[0]);
+        at.vp += dt * at.vv + quiet_noise[1];
+        at.vv = predicted_variance(at.vv + quiet_noise[2]);
+        manoeuvre.p += dt * manoeuvre.v + step->position_by_accel * more.a;
+        manoeuvre.v += step->velocity_by_accel * more.a;
+        more.a *= step->accel_by_accel;
+        propagate_axis_covariance(&manoeuvre, &more, step);
+        manoeuvre.pp = predicted_variance(manoeuvre.pp + noise[0]);
+        manoeuvre.vp += noise[1];
+        manoeuvre.vv = predicted_variance(manoeuvre.vv + noise[2]);
+        more.ap += noise[3];
+        more.av += noise[4];
+        more.aa = predicted_variance(more.aa + noise[5]);
+        store_axis(kalman->state, kalman->covariance, axis, &at);
+        store_axis(imm->state, imm->covariance, axis, &manoeuvre);
+        store_accel(imm, axis, &more);
+        is_good &= at.pp + at.vv <= RHO_VARIANCE_MAX;
+        is_good &= manoeuvre.pp + manoeuvre.vv + more.aa <= RHO_VARIANCE_MAX;
+        state_sum += at.p + at.v + manoeuvre.p + manoeuvre.v + more.a;
     }
-    return are_within_limits(&checks) ? RHO_OK : RHO_ERROR_VALUE;
+    return is_good && rho_is_finite(state_sum) ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict_both_models(imm, step, 0);
+    return imm && step ? predict_models(imm, step, 0) : RHO_ERROR_NULL;
 }
 
 enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict_both_models(imm, step, 1);
+    if (!imm || !step) {
+        return RHO_ERROR_NULL;
+    }
+    if (!(step->begins + step->ends > 0.0f)) {
+        return predict_models(imm, step, 0);
+    }
+    const struct mixing_weights by = update_markov_chain(imm, step);
+    return predict_models(imm, step, &by);
 }
-
-/* ---- estimate -------------------------------------------------------------------------------- */
 
 void rho_imm_estimate(const struct rho_imm *imm, struct rho_kalman *estimate, float accel_mps2[3])
 {
@@ -559,7 +455,7 @@ void rho_imm_estimate(const struct rho_imm *imm, struct rho_kalman *estimate, fl
                                           s * m * difference[i] * difference[j];
         }
     }
-    for (int axis = 0; accel_mps2 && axis < NUM_AXES; axis++) {
-        accel_mps2[axis] = m * imm->state[2 * NUM_AXES + axis];
+    for (int axis = 0; accel_mps2 && axis < RHO_AXES; axis++) {
+        accel_mps2[axis] = m * imm->state[2 * RHO_AXES + axis];
     }
 }

@@ -12,13 +12,11 @@
 
 #include "rhotrack/detail/imm.h"
 
-#define NUM_AXES 3
-
 /*
  * Index of the covariance of derivative d (0 position, 1 velocity, 2 acceleration) of an axis with
  * derivative e of the same or another axis.
  */
-#define COVARIANCE_AT(axis, d, other, e) RHO_AT(NUM_AXES *(d) + (axis), NUM_AXES * (e) + (other))
+#define COVARIANCE_AT(axis, d, other, e) RHO_AT(RHO_AXES *(d) + (axis), RHO_AXES * (e) + (other))
 
 /* Position and velocity of one axis, of either model, with their covariance. */
 struct axis {
@@ -39,7 +37,7 @@ struct accel {
  * Index of an axis' covariance with its own position, in its rows of position, velocity and
  * acceleration.
  */
-static const uint8_t axis_rows[NUM_AXES][3] = {
+static const uint8_t axis_rows[RHO_AXES][3] = {
     {COVARIANCE_AT(0, 0, 0, 0), COVARIANCE_AT(0, 1, 0, 0), COVARIANCE_AT(0, 2, 0, 0)},
     {COVARIANCE_AT(1, 0, 1, 0), COVARIANCE_AT(1, 1, 1, 0), COVARIANCE_AT(1, 2, 1, 0)},
     {COVARIANCE_AT(2, 0, 2, 0), COVARIANCE_AT(2, 1, 2, 0), COVARIANCE_AT(2, 2, 2, 0)},
@@ -47,44 +45,44 @@ static const uint8_t axis_rows[NUM_AXES][3] = {
 
 /*
  * Loads position and velocity of one axis. In a row of the covariance an axis' elements are
- * NUM_AXES apart.
+ * RHO_AXES apart.
  */
 static inline struct axis load_axis(const float *state, const float *covariance, int axis)
 {
     const float *by_v = &covariance[axis_rows[axis][1]];
     return (struct axis){.p = state[axis],
-                         .v = state[NUM_AXES + axis],
+                         .v = state[RHO_AXES + axis],
                          .pp = covariance[axis_rows[axis][0]],
                          .vp = by_v[0],
-                         .vv = by_v[NUM_AXES]};
+                         .vv = by_v[RHO_AXES]};
 }
 
 static inline void store_axis(float *state, float *covariance, int axis, const struct axis *in)
 {
     float *by_v = &covariance[axis_rows[axis][1]];
     state[axis] = in->p;
-    state[NUM_AXES + axis] = in->v;
+    state[RHO_AXES + axis] = in->v;
     covariance[axis_rows[axis][0]] = in->pp;
     by_v[0] = in->vp;
-    by_v[NUM_AXES] = in->vv;
+    by_v[RHO_AXES] = in->vv;
 }
 
 static inline struct accel load_accel(const struct rho_imm *imm, int axis)
 {
     const float *by_a = &imm->covariance[axis_rows[axis][2]];
-    return (struct accel){.a = imm->state[2 * NUM_AXES + axis],
+    return (struct accel){.a = imm->state[2 * RHO_AXES + axis],
                           .ap = by_a[0],
-                          .av = by_a[NUM_AXES],
-                          .aa = by_a[2 * NUM_AXES]};
+                          .av = by_a[RHO_AXES],
+                          .aa = by_a[2 * RHO_AXES]};
 }
 
 static inline void store_accel(struct rho_imm *imm, int axis, const struct accel *in)
 {
     float *by_a = &imm->covariance[axis_rows[axis][2]];
-    imm->state[2 * NUM_AXES + axis] = in->a;
+    imm->state[2 * RHO_AXES + axis] = in->a;
     by_a[0] = in->ap;
-    by_a[NUM_AXES] = in->av;
-    by_a[2 * NUM_AXES] = in->aa;
+    by_a[RHO_AXES] = in->av;
+    by_a[2 * RHO_AXES] = in->aa;
 }
 
 /*
@@ -106,7 +104,7 @@ struct model_difference {
  * Indices in the triangle of an axis pair's pp; pv; pa va; vp vv; ap av aa (the first of each
  * group), for the axes y and x, z and x, z and y.
  */
-static const uint8_t pair_rows[NUM_AXES][5] = {
+static const uint8_t pair_rows[RHO_AXES][5] = {
     {COVARIANCE_AT(1, 0, 0, 0), COVARIANCE_AT(1, 0, 0, 1), COVARIANCE_AT(1, 0, 0, 2),
      COVARIANCE_AT(1, 1, 0, 0), COVARIANCE_AT(1, 2, 0, 0)},
     {COVARIANCE_AT(2, 0, 0, 0), COVARIANCE_AT(2, 0, 0, 1), COVARIANCE_AT(2, 0, 0, 2),
@@ -119,7 +117,7 @@ static inline struct axis_pair load_steady_axis_pair(const float *covariance, co
 {
     const float *by_v = &covariance[rows[3]];
     return (struct axis_pair){
-        .pp = covariance[rows[0]], .pv = covariance[rows[1]], .vp = by_v[0], .vv = by_v[NUM_AXES]};
+        .pp = covariance[rows[0]], .pv = covariance[rows[1]], .vp = by_v[0], .vv = by_v[RHO_AXES]};
 }
 
 static inline void store_steady_axis_pair(float *covariance, const uint8_t rows[5],
@@ -129,7 +127,7 @@ static inline void store_steady_axis_pair(float *covariance, const uint8_t rows[
     covariance[rows[0]] = in->pp;
     covariance[rows[1]] = in->pv;
     by_v[0] = in->vp;
-    by_v[NUM_AXES] = in->vv;
+    by_v[RHO_AXES] = in->vv;
 }
 
 static inline struct axis_pair load_axis_pair(const float *covariance, const uint8_t rows[5])
@@ -137,10 +135,10 @@ static inline struct axis_pair load_axis_pair(const float *covariance, const uin
     const float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
     struct axis_pair out = load_steady_axis_pair(covariance, rows);
     out.pa = with_a[0];
-    out.va = with_a[NUM_AXES];
+    out.va = with_a[RHO_AXES];
     out.ap = by_a[0];
-    out.av = by_a[NUM_AXES];
-    out.aa = by_a[2 * NUM_AXES];
+    out.av = by_a[RHO_AXES];
+    out.aa = by_a[2 * RHO_AXES];
     return out;
 }
 
@@ -150,10 +148,10 @@ static inline void store_axis_pair(float *covariance, const uint8_t rows[5],
     float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
     store_steady_axis_pair(covariance, rows, in);
     with_a[0] = in->pa;
-    with_a[NUM_AXES] = in->va;
+    with_a[RHO_AXES] = in->va;
     by_a[0] = in->ap;
-    by_a[NUM_AXES] = in->av;
-    by_a[2 * NUM_AXES] = in->aa;
+    by_a[RHO_AXES] = in->av;
+    by_a[2 * RHO_AXES] = in->aa;
 }
 
 /* Copies the positions and velocities of a model into a six-state filter. */

@@ -9,12 +9,6 @@
 
 #include "rhotrack/detail/approx.h"
 
-/* Factor by which a variance is raised before it is reduced, against rounding, as in linalg.c. */
-#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
-
-/* Least range at which a line of sight is defined, as in measurement.c. */
-#define RANGE_LEAST_M 1.0f
-
 /* Indices of the first elements of rows in the packed triangle. */
 #define ROW_VX RHO_TRIANGLE(RHO_VX)
 #define ROW_VY RHO_TRIANGLE(RHO_VY)
@@ -24,14 +18,14 @@
 /* Indices of x y vx vy ax ay in `row` and `spread`. */
 enum { PLANE_X, PLANE_Y, PLANE_VX, PLANE_VY, PLANE_AX, PLANE_AY };
 
-int rho_imm_plane_predict_range_rate(const float *state, const float *covariance,
-                                     const struct rho_sensor *sensor, struct plane_rate *rate)
+int rho_imm_plane_rate(const float *state, const float *covariance, const struct rho_sensor *sensor,
+                       struct plane_rate *rate)
 {
     const float dx_m = state[RHO_X] - (sensor ? sensor->x_m : 0.0f);
     const float dy_m = state[RHO_Y] - (sensor ? sensor->y_m : 0.0f);
     const float vx_mps = state[RHO_VX], vy_mps = state[RHO_VY];
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-    if (!(range_m >= RANGE_LEAST_M)) {
+    if (!(range_m >= RHO_RANGE_LEAST_M)) {
         return 0;
     }
     const float per_m = 1.0f / range_m, along_x = dx_m * per_m, along_y = dy_m * per_m;
@@ -46,8 +40,8 @@ int rho_imm_plane_predict_range_rate(const float *state, const float *covariance
     return 1;
 }
 
-float rho_imm_plane_project_along_direction(int num_states, const float *restrict p, float x,
-                                            float y, float *restrict spread)
+float rho_imm_plane_project_place(int num_states, const float *restrict p, float x, float y,
+                                  float *restrict spread)
 {
     spread[PLANE_X] = p[RHO_XX] * x + p[RHO_YX] * y;
     spread[PLANE_Y] = p[RHO_YX] * x + p[RHO_YY] * y;
@@ -60,8 +54,8 @@ float rho_imm_plane_project_along_direction(int num_states, const float *restric
     return spread[PLANE_X] * x + spread[PLANE_Y] * y;
 }
 
-float rho_imm_plane_project_range_rate(int num_states, const float *restrict p,
-                                       const float *restrict row, float *restrict spread)
+float rho_imm_plane_project_rate(int num_states, const float *restrict p, const float *restrict row,
+                                 float *restrict spread)
 {
     const float x = row[PLANE_X], y = row[PLANE_Y], vx = row[PLANE_VX], vy = row[PLANE_VY];
     spread[PLANE_X] =
@@ -82,47 +76,9 @@ float rho_imm_plane_project_range_rate(int num_states, const float *restrict p,
            spread[PLANE_VY] * vy;
 }
 
-static inline float reduced_variance_with_rounding_allowance(float variance, float taken)
+static inline float reduced_variance(float variance, float taken)
 {
-    return variance * ROUNDING_ALLOWANCE - taken;
-}
-
-static inline void reduce_steady_covariance(float *restrict p, const float *restrict s,
-                                            float inverse)
-{
-    const float x = s[PLANE_X] * inverse, y = s[PLANE_Y] * inverse, vx = s[PLANE_VX] * inverse,
-                vy = s[PLANE_VY] * inverse;
-    p[RHO_XX] = reduced_variance_with_rounding_allowance(p[RHO_XX], x * s[PLANE_X]);
-    p[RHO_YX] -= y * s[PLANE_X];
-    p[RHO_YY] = reduced_variance_with_rounding_allowance(p[RHO_YY], y * s[PLANE_Y]);
-    p[ROW_VX + RHO_X] -= vx * s[PLANE_X];
-    p[ROW_VX + RHO_Y] -= vx * s[PLANE_Y];
-    p[ROW_VX + RHO_VX] =
-        reduced_variance_with_rounding_allowance(p[ROW_VX + RHO_VX], vx * s[PLANE_VX]);
-    p[ROW_VY + RHO_X] -= vy * s[PLANE_X];
-    p[ROW_VY + RHO_Y] -= vy * s[PLANE_Y];
-    p[ROW_VY + RHO_VX] -= vy * s[PLANE_VX];
-    p[ROW_VY + RHO_VY] =
-        reduced_variance_with_rounding_allowance(p[ROW_VY + RHO_VY], vy * s[PLANE_VY]);
-}
-
-static inline void reduce_acceleration_rows_of_covariance(float *restrict p,
-                                                          const float *restrict s, float inverse)
-{
-    const float ax = s[PLANE_AX] * inverse, ay = s[PLANE_AY] * inverse;
-    p[ROW_AX + RHO_X] -= ax * s[PLANE_X];
-    p[ROW_AX + RHO_Y] -= ax * s[PLANE_Y];
-    p[ROW_AX + RHO_VX] -= ax * s[PLANE_VX];
-    p[ROW_AX + RHO_VY] -= ax * s[PLANE_VY];
-    p[ROW_AX + RHO_AX] =
-        reduced_variance_with_rounding_allowance(p[ROW_AX + RHO_AX], ax * s[PLANE_AX]);
-    p[ROW_AY + RHO_X] -= ay * s[PLANE_X];
-    p[ROW_AY + RHO_Y] -= ay * s[PLANE_Y];
-    p[ROW_AY + RHO_VX] -= ay * s[PLANE_VX];
-    p[ROW_AY + RHO_VY] -= ay * s[PLANE_VY];
-    p[ROW_AY + RHO_AX] -= ay * s[PLANE_AX];
-    p[ROW_AY + RHO_AY] =
-        reduced_variance_with_rounding_allowance(p[ROW_AY + RHO_AY], ay * s[PLANE_AY]);
+    return variance * RHO_ROUNDING_ALLOWANCE - taken;
 }
 
 enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
@@ -137,11 +93,35 @@ enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
     state[RHO_Y] += spread[PLANE_Y] * step;
     state[RHO_VX] += spread[PLANE_VX] * step;
     state[RHO_VY] += spread[PLANE_VY] * step;
-    reduce_steady_covariance(covariance, spread, inverse);
+    float *restrict p = covariance;
+    const float *restrict s = spread;
+    const float x = s[PLANE_X] * inverse, y = s[PLANE_Y] * inverse, vx = s[PLANE_VX] * inverse,
+                vy = s[PLANE_VY] * inverse;
+    p[RHO_XX] = reduced_variance(p[RHO_XX], x * s[PLANE_X]);
+    p[RHO_YX] -= y * s[PLANE_X];
+    p[RHO_YY] = reduced_variance(p[RHO_YY], y * s[PLANE_Y]);
+    p[ROW_VX + RHO_X] -= vx * s[PLANE_X];
+    p[ROW_VX + RHO_Y] -= vx * s[PLANE_Y];
+    p[ROW_VX + RHO_VX] = reduced_variance(p[ROW_VX + RHO_VX], vx * s[PLANE_VX]);
+    p[ROW_VY + RHO_X] -= vy * s[PLANE_X];
+    p[ROW_VY + RHO_Y] -= vy * s[PLANE_Y];
+    p[ROW_VY + RHO_VX] -= vy * s[PLANE_VX];
+    p[ROW_VY + RHO_VY] = reduced_variance(p[ROW_VY + RHO_VY], vy * s[PLANE_VY]);
     if (num_states > RHO_PLANE_STEADY) {
-        state[RHO_AX] += spread[PLANE_AX] * step;
-        state[RHO_AY] += spread[PLANE_AY] * step;
-        reduce_acceleration_rows_of_covariance(covariance, spread, inverse);
+        const float ax = s[PLANE_AX] * inverse, ay = s[PLANE_AY] * inverse;
+        state[RHO_AX] += s[PLANE_AX] * step;
+        state[RHO_AY] += s[PLANE_AY] * step;
+        p[ROW_AX + RHO_X] -= ax * s[PLANE_X];
+        p[ROW_AX + RHO_Y] -= ax * s[PLANE_Y];
+        p[ROW_AX + RHO_VX] -= ax * s[PLANE_VX];
+        p[ROW_AX + RHO_VY] -= ax * s[PLANE_VY];
+        p[ROW_AX + RHO_AX] = reduced_variance(p[ROW_AX + RHO_AX], ax * s[PLANE_AX]);
+        p[ROW_AY + RHO_X] -= ay * s[PLANE_X];
+        p[ROW_AY + RHO_Y] -= ay * s[PLANE_Y];
+        p[ROW_AY + RHO_VX] -= ay * s[PLANE_VX];
+        p[ROW_AY + RHO_VY] -= ay * s[PLANE_VY];
+        p[ROW_AY + RHO_AX] -= ay * s[PLANE_AX];
+        p[ROW_AY + RHO_AY] = reduced_variance(p[ROW_AY + RHO_AY], ay * s[PLANE_AY]);
     }
     /* checks all results at once: a sum is finite unless a term is not */
     return rho_is_finite(innovation * step + state[RHO_X] + state[RHO_Y] + state[RHO_VX] +
@@ -152,8 +132,8 @@ enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
 
 static inline void raise_to_floor(float *variance)
 {
-    if (*variance < RHO_KALMAN_VARIANCE_MIN) {
-        *variance = RHO_KALMAN_VARIANCE_MIN;
+    if (*variance < RHO_VARIANCE_MIN) {
+        *variance = RHO_VARIANCE_MIN;
     }
 }
 

@@ -12,8 +12,7 @@
 #include "imm_axis_access.h"
 
 /* Numbers of states on two axes, in the steady and in the manoeuvring model. */
-#define RHO_PLANE_STEADY (2 * 2)
-#define RHO_PLANE_MANOEUVRE (2 * 3)
+enum { RHO_PLANE_STEADY = 2 * 2, RHO_PLANE_MANOEUVRE = 2 * 3 };
 
 /* Predicted range rate of an estimate. */
 struct plane_rate {
@@ -26,21 +25,21 @@ struct plane_rate {
  * Predicts the range rate of an estimate into *rate. Returns 0 where the position is the sensor's,
  * and no range rate is defined.
  */
-int rho_imm_plane_predict_range_rate(const float *state, const float *covariance,
-                                     const struct rho_sensor *sensor, struct plane_rate *rate);
+int rho_imm_plane_rate(const float *state, const float *covariance, const struct rho_sensor *sensor,
+                       struct plane_rate *rate);
 
 /*
  * spread := covariances of the states with the position along the direction (x, y), or with a range
  * rate. Returns the variance of the position or the range rate.
  */
-float rho_imm_plane_project_along_direction(int num_states, const float *restrict p, float x,
-                                            float y, float *restrict spread);
-float rho_imm_plane_project_range_rate(int num_states, const float *restrict p,
-                                       const float *restrict row, float *restrict spread);
+float rho_imm_plane_project_place(int num_states, const float *restrict p, float x, float y,
+                                  float *restrict spread);
+float rho_imm_plane_project_rate(int num_states, const float *restrict p, const float *restrict row,
+                                 float *restrict spread);
 
 /*
  * Updates an estimate with a scalar whose covariances `spread` and variance `predicted` a
- * projection gave. The noise variance is RHO_KALMAN_VARIANCE_MIN at least. Errors: SINGULAR, VALUE,
+ * projection gave. The noise variance is RHO_VARIANCE_MIN at least. Errors: SINGULAR, VALUE,
  * as rho_linalg_update_row; then the estimate must not be used any more.
  */
 enum rho_status rho_imm_plane_update(int num_states, float *restrict state,

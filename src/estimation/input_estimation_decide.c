@@ -6,17 +6,13 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "input_estimation_sensitivity.h"
+#include "input_sensitivity.h"
 #include "rhotrack/detail/input_estimation.h"
-
-/* Indices of the elements of row i of a packed symmetric 3 x 3 matrix. */
-static const uint8_t places[NUM_AXES][NUM_AXES] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
 
 /* Restarts the estimation of one axis' input: 0 with this variance, and no sensitivity. */
 static void reset_input(struct rho_input *input, int axis, float variance)
 {
-    const uint8_t *place = places[axis];
-
+    const uint8_t *place = rho_linalg_row6[axis];
     memset(input->sensitivity[axis], 0, sizeof input->sensitivity[axis]);
     input->input_mps2[axis] = 0.0f;
     input->variance[place[0]] = 0.0f;
@@ -29,17 +25,13 @@ static void reset_input(struct rho_input *input, int axis, float variance)
 static float input_nis(const struct rho_input *input, int axis)
 {
     const float u = input->input_mps2[axis];
-
-    return u / input->variance[places[axis][axis]] * u;
+    return u / input->variance[rho_linalg_row6[axis][axis]] * u;
 }
-
-/* ---- correlated inputs ----------------------------------------------------------------------- */
 
 /* Conditional variance, variance minus the explained part, with a lower limit against rounding. */
 static float remaining_variance(float variance, float explained)
 {
-    const float rest = variance - explained, least = variance * ROUNDING_SHARE;
-
+    const float rest = variance - explained, least = variance * RHO_ROUNDING_UNITS(16);
     return rest > least ? rest : least;
 }
 
@@ -50,7 +42,6 @@ static void condition_others_on_no_input(struct rho_input *input, int axis)
     float *v = input->variance;
     const float vb = v[RHO_AT(axis, b)], vc = v[RHO_AT(axis, c)];
     const float share_b = vb / v[RHO_AT(axis, axis)], share_c = vc / v[RHO_AT(axis, axis)];
-
     input->input_mps2[b] -= share_b * input->input_mps2[axis];
     input->input_mps2[c] -= share_c * input->input_mps2[axis];
     v[RHO_AT(b, b)] = remaining_variance(v[RHO_AT(b, b)], share_b * vb);
@@ -70,13 +61,11 @@ static void move_input_effect_into_filter(struct rho_input *input, int axis)
     const float *v = input->variance, *m = input->sensitivity[axis];
     const float vb = v[RHO_AT(axis, b)], vc = v[RHO_AT(axis, c)];
     float rest_mps2 = input->input_mps2[axis], variance = v[RHO_AT(axis, axis)];
-
     if (!is_zero(vb) || !is_zero(vc)) {
         const float bb = v[RHO_AT(b, b)], bc = v[RHO_AT(b, c)];
         const float pivot = remaining_variance(v[RHO_AT(c, c)], bc / bb * bc);
         const float share_c = (vc - bc / bb * vb) / pivot;
         const float share_b = (vb - share_c * bc) / bb;
-
         rest_mps2 -= share_b * input->input_mps2[b] + share_c * input->input_mps2[c];
         variance = remaining_variance(variance, share_b * vb + share_c * vc);
         for (int i = 0; i < NUM_STATES; i++) {
@@ -88,71 +77,38 @@ static void move_input_effect_into_filter(struct rho_input *input, int axis)
 }
 
 /*
- * Axis whose input has the smallest NIS among `axes`, which must not be empty; the first of equals.
- */
-static int find_weakest_input(const struct rho_input *input, uint32_t axes)
-{
-    int weakest = includes_axis(axes, 0) ? 0 : (includes_axis(axes, 1) ? 1 : 2);
-    float least = input_nis(input, weakest);
-
-    for (int axis = weakest + 1; axis < NUM_AXES; axis++) {
-        if (includes_axis(axes, axis) && input_nis(input, axis) < least) {
-            weakest = axis;
-            least = input_nis(input, axis);
-        }
-    }
-    return weakest;
-}
-
-/*
  * Tests correlated inputs, the weakest first, and removes those below the limit. Returns the axes
  * with inputs.
  */
-static uint32_t end_weak_correlated_inputs_get_axes_left(struct rho_input *input, float nis_limit,
-                                                         float initial_variance)
+static uint32_t end_correlated_inputs(struct rho_input *input, float nis_limit,
+                                      float initial_variance)
 {
     uint32_t left = INPUT_ALL_PRESENT;
-
     while (left) {
-        const int axis = find_weakest_input(input, left);
-
-        if (input_nis(input, axis) > nis_limit) {
+        /* of equals the first */
+        int weakest = includes_axis(left, 0) ? 0 : (includes_axis(left, 1) ? 1 : 2);
+        float least = input_nis(input, weakest);
+        for (int axis = weakest + 1; axis < NUM_AXES; axis++) {
+            if (includes_axis(left, axis) && input_nis(input, axis) < least) {
+                weakest = axis;
+                least = input_nis(input, axis);
+            }
+        }
+        if (least > nis_limit) {
             break;
         }
-        if (includes_axis(input->present, axis)) {
-            move_input_effect_into_filter(input, axis);
+        if (includes_axis(input->present, weakest)) {
+            move_input_effect_into_filter(input, weakest);
         } else {
-            condition_others_on_no_input(input, axis);
+            condition_others_on_no_input(input, weakest);
         }
-        reset_input(input, axis, initial_variance);
-        left &= ~(1u << axis);
+        reset_input(input, weakest, initial_variance);
+        left &= ~(1u << weakest);
     }
     return left;
 }
 
-/* ---- independent inputs ---------------------------------------------------------------------- */
-
-/* Ends each input with a NIS within the limit. Returns the axes with inputs. */
-static uint32_t end_weak_independent_inputs_get_axes_left(struct rho_input *input, float nis_limit,
-                                                          float initial_variance)
-{
-    uint32_t left = 0;
-
-    for (int axis = 0; axis < NUM_AXES; axis++) {
-        if (input_nis(input, axis) > nis_limit) {
-            left |= 1u << axis;
-            continue;
-        }
-        if (includes_axis(input->present, axis)) {
-            add_input_effect(&input->bare, input->sensitivity[axis], axis, input->input_mps2[axis],
-                             input->variance[places[axis][axis]]);
-        }
-        reset_input(input, axis, initial_variance);
-    }
-    return left;
-}
-
-void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_input_config *config)
+void rho_input_decide(struct rho_input *input, const struct rho_input_config *config)
 {
     if (input == NULL || config == NULL || !config->is_estimated) {
         return;
@@ -160,7 +116,21 @@ void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_inp
     const float limit2 = config->threshold * config->threshold;
     const float variance = config->sigma_mps2 * config->sigma_mps2;
 
-    input->present = are_inputs_independent(input->variance)
-                         ? end_weak_independent_inputs_get_axes_left(input, limit2, variance)
-                         : end_weak_correlated_inputs_get_axes_left(input, limit2, variance);
+    if (!are_inputs_independent(input->variance)) {
+        input->present = end_correlated_inputs(input, limit2, variance);
+        return;
+    }
+    uint32_t left = 0;
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        if (input_nis(input, axis) > limit2) {
+            left |= 1u << axis;
+            continue;
+        }
+        if (includes_axis(input->present, axis)) {
+            add_input_effect(&input->bare, input->sensitivity[axis], axis, input->input_mps2[axis],
+                             input->variance[rho_linalg_row6[axis][axis]]);
+        }
+        reset_input(input, axis, variance);
+    }
+    input->present = left;
 }

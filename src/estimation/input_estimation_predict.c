@@ -5,19 +5,10 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "input_estimation_sensitivity.h"
+#include "input_sensitivity.h"
 #include "rhotrack/detail/approx.h"
 
-#define SIGMA_MIN_MPS2 1.0e-3f
-#define SIGMA_MAX_MPS2 1.0e5f
-#define NOISE_MAX 1.0e6f
-
-/* Addition to a variance up to which the result is not checked against RHO_KALMAN_VARIANCE_MAX. */
-#define ADDED_EASILY (1.0e-3f * RHO_KALMAN_VARIANCE_MAX)
-
 static const struct rho_input no_input = {.present = 0};
-
-/* ---- configuration --------------------------------------------------------------------------- */
 
 /*
  * Quantile of the normal distribution: M. Abramowitz, I. Stegun, Handbook of Mathematical
@@ -51,27 +42,18 @@ void rho_input_config_default(struct rho_input_config *config)
     }
 }
 
-static int is_valid_noise_sigma(float sigma)
-{
-    return sigma >= 0.0f && sigma <= NOISE_MAX;
-}
-
 int rho_input_is_usable(const struct rho_input_config *config)
 {
     return config != NULL && config->model < RHO_NUM_INPUT_MODELS &&
-           config->sigma_mps2 >= SIGMA_MIN_MPS2 && config->sigma_mps2 <= SIGMA_MAX_MPS2 &&
-           config->threshold > 0.0f && config->threshold <= FLT_MAX && config->gamma > 0.0f &&
-           config->gamma <= 1.0f && config->noise_density >= 0.0f &&
-           config->noise_density <= FLT_MAX && is_valid_noise_sigma(config->noise_m) &&
-           is_valid_noise_sigma(config->noise_mps) &&
-           config->velocity_variance >= RHO_KALMAN_VARIANCE_MIN &&
-           config->velocity_variance <= RHO_KALMAN_VARIANCE_MAX &&
-           config->initial_variance >= 0.0f &&
-           config->initial_variance <= RHO_KALMAN_VARIANCE_MAX &&
-           !(config->initial_variance > 0.0f && config->initial_variance < RHO_KALMAN_VARIANCE_MIN);
+           rho_is_within(config->sigma_mps2, 1.0e-3f, 1.0e5f) && config->threshold > 0.0f &&
+           config->threshold <= FLT_MAX && config->gamma > 0.0f && config->gamma <= 1.0f &&
+           rho_is_within(config->noise_density, 0.0f, FLT_MAX) &&
+           rho_is_within(config->noise_m, 0.0f, 1.0e6f) &&
+           rho_is_within(config->noise_mps, 0.0f, 1.0e6f) &&
+           rho_is_within(config->velocity_variance, RHO_VARIANCE_MIN, RHO_VARIANCE_MAX) &&
+           rho_is_within(config->initial_variance, 0.0f, RHO_VARIANCE_MAX) &&
+           !(config->initial_variance > 0.0f && config->initial_variance < RHO_VARIANCE_MIN);
 }
-
-/* ---- the estimate with its inputs ------------------------------------------------------------ */
 
 /*
  * Adds the effects M u and M V M^T of the correlated inputs on these axes to an estimate. With V =
@@ -81,12 +63,10 @@ static void add_correlated_input_effects(struct rho_kalman *estimate, const stru
                                          uint32_t axes)
 {
     float v[RHO_TRIANGLE(NUM_AXES)], column[NUM_STATES];
-
     memcpy(v, input->variance, sizeof v);
     for (int a = 0; a < NUM_AXES; a++) {
         const float *m = input->sensitivity[a];
         const float pivot = v[RHO_AT(a, a)];
-
         if (!includes_axis(axes, a)) {
             continue;
         }
@@ -97,7 +77,6 @@ static void add_correlated_input_effects(struct rho_kalman *estimate, const stru
         memcpy(column, m, sizeof column);
         for (int b = a + 1; b < NUM_AXES; b++) {
             const float share = includes_axis(axes, b) ? v[RHO_AT(b, a)] / pivot : 0.0f;
-
             for (int i = 0; i < NUM_STATES; i++) {
                 column[i] += share * input->sensitivity[b][i];
             }
@@ -114,7 +93,6 @@ static void add_input_effects(struct rho_kalman *estimate, const struct rho_inpu
                               uint32_t axes)
 {
     static const uint8_t diagonal[NUM_AXES] = {RHO_XX, RHO_YY, RHO_ZZ};
-
     if (!are_inputs_independent(input->variance)) {
         add_correlated_input_effects(estimate, input, axes);
         return;
@@ -127,19 +105,17 @@ static void add_input_effects(struct rho_kalman *estimate, const struct rho_inpu
     }
 }
 
-void rho_input_get_corrected_estimate(const struct rho_input *input, struct rho_kalman *estimate)
+void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
     add_input_effects(estimate, input, input->present);
 }
 
-void rho_input_estimate_with_all_inputs(const struct rho_input *input, struct rho_kalman *estimate)
+void rho_input_gate_estimate(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
     add_input_effects(estimate, input, INPUT_ALL_PRESENT);
 }
-
-/* ---- start and prediction -------------------------------------------------------------------- */
 
 enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_config *config,
                                 const struct rho_kalman *estimate)
@@ -161,17 +137,15 @@ enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_
 }
 
 /* N = F M + D; back in time N = F^-1 (M - D). Returns the sum of squares of N's elements. */
-static float predict_and_square_sensitivities(struct rho_input *input,
-                                              const struct rho_input_config *config, float dt_s)
+static float predict_sensitivities(struct rho_input *input, const struct rho_input_config *config,
+                                   float dt_s)
 {
     const int is_literal = config->model == RHO_INPUT_LITERAL;
     const float half_m = 0.5f * dt_s * dt_s, whole_m = dt_s < 0.0f ? dt_s * dt_s : 0.0f;
     const float moved_m = is_literal ? whole_m : half_m;
     float size2 = 0.0f;
-
     for (int a = 0; a < NUM_AXES; a++) {
         float *n = input->sensitivity[a];
-
         n[RHO_X] += dt_s * n[RHO_VX];
         n[RHO_Y] += dt_s * n[RHO_VY];
         n[RHO_Z] += dt_s * n[RHO_VZ];
@@ -194,12 +168,10 @@ static void grow_present_input_variances(struct rho_input *input,
 {
     const float most = config->sigma_mps2 * config->sigma_mps2;
     float *v = input->variance;
-
     for (int a = 0; a < NUM_AXES; a++) {
         const float before = v[RHO_AT(a, a)];
         const float wider = before / config->gamma;
         const float after = wider < most ? wider : most;
-
         if (!includes_axis(input->present, a) || !(after > before)) {
             continue;
         }
@@ -207,67 +179,56 @@ static void grow_present_input_variances(struct rho_input *input,
         const int b = (a + 1) % NUM_AXES, c = (a + 2) % NUM_AXES;
         if (!is_zero(v[RHO_AT(a, b)]) || !is_zero(v[RHO_AT(a, c)])) {
             const float factor = rho_sqrt(after / before);
-
             v[RHO_AT(a, b)] *= factor;
             v[RHO_AT(a, c)] *= factor;
         }
     }
 }
 
-/*
- * True where variances of the corrected estimate are within their limit. Inputs add at most
- * sensitivity2 trace V to a variance; this bound usually suffices.
- */
-static int are_estimate_variances_in_limit(const struct rho_input *input, float sensitivity2)
+static enum rho_status predict_inputs(struct rho_input *input,
+                                      const struct rho_input_config *config, float dt_s)
 {
     const float *v = input->variance;
-    const float most = sensitivity2 * (v[RHO_XX] + v[RHO_YY] + v[RHO_ZZ]);
     struct rho_kalman estimate;
-
-    if (!(sensitivity2 <= SENSITIVITY2_MAX)) {
-        return 0;
-    }
-    if (!input->present || most <= ADDED_EASILY) {
-        return 1;
-    }
-    rho_input_get_corrected_estimate(input, &estimate);
-    for (int i = 0; i < NUM_STATES; i++) {
-        if (!(estimate.covariance[RHO_AT(i, i)] <= RHO_KALMAN_VARIANCE_MAX)) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-static enum rho_status predict_filter_and_inputs(struct rho_input *input,
-                                                 const struct rho_input_config *config, float dt_s)
-{
-    enum rho_status status = rho_kalman_predict(&input->bare, dt_s, config->noise_density);
-
-    if (status == RHO_OK && dt_s > 0.0f) {
-        status = rho_kalman_add_noise(&input->bare, config->noise_m * config->noise_m,
-                                      config->noise_mps * config->noise_mps);
-    }
-    if (status != RHO_OK || !config->is_estimated) {
-        return status;
-    }
     if (dt_s > 0.0f && config->gamma < 1.0f) {
         grow_present_input_variances(input, config);
     }
-    const float size2 = predict_and_square_sensitivities(input, config, dt_s);
-    return are_estimate_variances_in_limit(input, size2) ? RHO_OK : RHO_ERROR_VALUE;
+    const float size2 = predict_sensitivities(input, config, dt_s);
+    if (!(size2 <= SQUARE_MAX)) {
+        return RHO_ERROR_VALUE;
+    }
+    /*
+     * Inputs add at most size2 trace V to a variance: where that is a thousandth of the limit, the
+     * variances of the corrected estimate need no check.
+     */
+    if (!input->present ||
+        size2 * (v[RHO_XX] + v[RHO_YY] + v[RHO_ZZ]) <= 1.0e-3f * RHO_VARIANCE_MAX) {
+        return RHO_OK;
+    }
+    rho_input_estimate(input, &estimate);
+    for (int i = 0; i < NUM_STATES; i++) {
+        if (!(estimate.covariance[RHO_AT(i, i)] <= RHO_VARIANCE_MAX)) {
+            return RHO_ERROR_VALUE;
+        }
+    }
+    return RHO_OK;
 }
 
 enum rho_status rho_input_predict(struct rho_input *input, const struct rho_input_config *config,
                                   float dt_s)
 {
-    enum rho_status status;
-
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
     }
     const struct rho_input before = *input;
-    status = predict_filter_and_inputs(input, config, dt_s);
+    enum rho_status status = rho_kalman_predict(&input->bare, dt_s, config->noise_density);
+    if (status == RHO_OK && dt_s > 0.0f) {
+        status = rho_kalman_add_noise(&input->bare, config->noise_m * config->noise_m,
+                                      config->noise_mps * config->noise_mps);
+    }
+    if (status == RHO_OK && config->is_estimated) {
+        status = predict_inputs(input, config, dt_s);
+    }
     if (status != RHO_OK) {
         *input = before;
     }

@@ -5,43 +5,15 @@
  */
 #include <float.h>
 #include <stddef.h>
-#include <string.h>
 
-#include "input_estimation_sensitivity.h"
+#include "input_sensitivity.h"
 #include "rhotrack/detail/input_estimation.h"
 
 /*
- * Factor by which a variance is raised before it is reduced: sixteen units of rounding, as in
- * linalg.c.
- */
-#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
-
-#define INPUT2_MAX 1.0e24f
-
-/*
  * Limit of (s / S)^2 P_ii, s the sensitivity of element i: keeps the change of all sensitivities
- * within SENSITIVITY2_MAX, as a covariance with element i is at most sqrt(P_ii) times the largest
- * sigma.
+ * within SQUARE_MAX, as a covariance with element i is at most sqrt(P_ii) times the largest sigma.
  */
-#define MOVED2_MAX (SENSITIVITY2_MAX / RHO_KALMAN_VARIANCE_MAX)
-
-/* Indices of the elements of row i of a packed symmetric 6 x 6 matrix. */
-static const uint8_t row_indices[NUM_STATES][NUM_STATES] = {
-    {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
-    {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
-};
-
-static float floored_noise_variance(float variance)
-{
-    return variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
-}
-
-static float at_least_floor(float variance)
-{
-    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
-}
-
-/* ---- any measurement ------------------------------------------------------------------------- */
+#define MOVED2_MAX (SQUARE_MAX / RHO_VARIANCE_MAX)
 
 /* A scalar measurement with row h: P h, h P h^T + R, and its derivatives H N by the inputs. */
 struct scalar_measurement {
@@ -55,31 +27,6 @@ struct scalar_measurement {
     float by_input[NUM_AXES];
 };
 
-static enum rho_status update_bare_filter(struct rho_kalman *bare,
-                                          const struct scalar_measurement *scalar)
-{
-    if (scalar->row) {
-        return rho_kalman_update_row(bare, scalar->row, scalar->off, scalar->noise, NULL);
-    }
-    return rho_kalman_update(bare, scalar->element, scalar->value, scalar->noise, NULL);
-}
-
-/*
- * Updates one column of the sensitivities: M = (I - K H) N. False where it gets too large, or NaN.
- */
-static int update_sensitivity(float m[NUM_STATES], const struct scalar_measurement *scalar,
-                              float by_input)
-{
-    const float factor = by_input / scalar->variance;
-    float size2 = 0.0f;
-
-    for (int i = 0; i < NUM_STATES; i++) {
-        m[i] -= factor * scalar->projected[i];
-        size2 += m[i] * m[i];
-    }
-    return size2 <= SENSITIVITY2_MAX;
-}
-
 /*
  * Updates the inputs u and their covariance V, the paper's (11) and (12). False where they get too
  * large, or NaN.
@@ -88,7 +35,6 @@ static int update_inputs(struct rho_input *input, const struct scalar_measuremen
 {
     float *v = input->variance, *u = input->input_mps2, vs[NUM_AXES];
     float variance = scalar->variance, rest = scalar->off;
-
     for (int a = 0; a < NUM_AXES; a++) {
         vs[a] = v[RHO_AT(a, RHO_X)] * scalar->by_input[RHO_X] +
                 v[RHO_AT(a, RHO_Y)] * scalar->by_input[RHO_Y] +
@@ -98,109 +44,62 @@ static int update_inputs(struct rho_input *input, const struct scalar_measuremen
     }
     for (int a = 0; a < NUM_AXES; a++) {
         const float gain = vs[a] / variance;
-
         u[a] += gain * rest;
         for (int b = 0; b < a; b++) {
             v[RHO_AT(a, b)] -= gain * vs[b];
         }
         if (!is_zero(vs[a])) {
-            v[RHO_AT(a, a)] = at_least_floor(v[RHO_AT(a, a)] * ROUNDING_ALLOWANCE - gain * vs[a]);
+            v[RHO_AT(a, a)] =
+                rho_kalman_floored(v[RHO_AT(a, a)] * RHO_ROUNDING_ALLOWANCE - gain * vs[a]);
         }
     }
     return variance >= scalar->variance && variance <= FLT_MAX &&
-           u[0] * u[0] + u[1] * u[1] + u[2] * u[2] <= INPUT2_MAX;
+           u[0] * u[0] + u[1] * u[1] + u[2] * u[2] <= SQUARE_MAX;
 }
 
-static enum rho_status update_filter_and_inputs(struct rho_input *input,
-                                                const struct scalar_measurement *scalar)
+static enum rho_status update_all(struct rho_input *input, const struct scalar_measurement *scalar)
 {
     struct rho_input next = *input;
-    enum rho_status status;
-
     if (!update_inputs(&next, scalar)) {
         return RHO_ERROR_VALUE;
     }
+    /* M = (I - K H) N, column by column; refused where one gets too large, or NaN */
     for (int a = 0; a < NUM_AXES; a++) {
-        if (!update_sensitivity(next.sensitivity[a], scalar, scalar->by_input[a])) {
+        const float factor = scalar->by_input[a] / scalar->variance;
+        float *m = next.sensitivity[a], size2 = 0.0f;
+        for (int i = 0; i < NUM_STATES; i++) {
+            m[i] -= factor * scalar->projected[i];
+            size2 += m[i] * m[i];
+        }
+        if (!(size2 <= SQUARE_MAX)) {
             return RHO_ERROR_VALUE;
         }
     }
-    status = update_bare_filter(&next.bare, scalar);
+    const enum rho_status status =
+        scalar->row
+            ? rho_kalman_update_row(&next.bare, scalar->row, scalar->off, scalar->noise, 0)
+            : rho_kalman_update(&next.bare, scalar->element, scalar->value, scalar->noise, NULL);
     if (status == RHO_OK) {
         *input = next;
     }
     return status;
 }
 
-static enum rho_status update_by_row(struct rho_input *input, const float row[6], float innovation,
-                                     float variance)
-{
-    struct scalar_measurement scalar = {.row = row, .noise = variance, .off = innovation};
-
-    scalar.variance = floored_noise_variance(variance) +
-                      rho_linalg_project6(input->bare.covariance, row, scalar.projected);
-    for (int a = 0; a < NUM_AXES; a++) {
-        for (int i = 0; i < NUM_STATES; i++) {
-            scalar.by_input[a] += row[i] * input->sensitivity[a][i];
-        }
-    }
-    return update_filter_and_inputs(input, &scalar);
-}
-
-static enum rho_status update_by_coupled_element(struct rho_input *input, int element, float value,
-                                                 float variance)
-{
-    struct scalar_measurement scalar = {.element = element,
-                                        .value = value,
-                                        .noise = variance,
-                                        .off = value - input->bare.state[element]};
-
-    for (int i = 0; i < NUM_STATES; i++) {
-        scalar.projected[i] = input->bare.covariance[row_indices[element][i]];
-    }
-    scalar.variance = floored_noise_variance(variance) + scalar.projected[element];
-    for (int a = 0; a < NUM_AXES; a++) {
-        scalar.by_input[a] = input->sensitivity[a][element];
-    }
-    return update_filter_and_inputs(input, &scalar);
-}
-
-/* ---- an element that depends on the input of its own axis only ------------------------------- */
-
-/*
- * True if the element depends on no other axis' input, and the inputs are uncorrelated: the usual
- * case.
- */
-static int depends_on_own_input_only(const struct rho_input *input, int element, int axis)
-{
-    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
-    const int b = others[axis][0], c = others[axis][1];
-
-    return (shifted_bits_without_sign(input->sensitivity[b][element]) |
-            shifted_bits_without_sign(input->sensitivity[c][element]) |
-            shifted_bits_without_sign(input->variance[RHO_YX]) |
-            shifted_bits_without_sign(input->variance[RHO_ZX]) |
-            shifted_bits_without_sign(input->variance[RHO_ZY])) == 0;
-}
-
 /*
  * Updates filter and input of one axis with an element that depends on no other input: does what
- * update_filter_and_inputs does, the paper's (8) to (13), written out, as a loop would take twice
- * the time.
+ * update_all does, the paper's (8) to (13), written out, as a loop would take twice the time.
  */
 static enum rho_status update_axis_with_own_input(struct rho_input *input, int axis, int element,
                                                   float value, float variance)
 {
     const float *p = input->bare.covariance;
-    const uint8_t *index = row_indices[element];
+    const uint8_t *index = rho_linalg_row6[element];
     float *m = input->sensitivity[axis];
     const float s = m[element], v = input->variance[RHO_AT(axis, axis)];
-    const float bare = p[index[element]] + floored_noise_variance(variance),
-                total = v * s * s + bare;
+    const float bare = p[index[element]] + rho_kalman_floored(variance), total = v * s * s + bare;
     const float rest = value - input->bare.state[element] - s * input->input_mps2[axis];
     const float learned_mps2 = input->input_mps2[axis] + v * s / total * rest;
     const float factor = s / bare;
-
     const float x = m[RHO_X] - factor * p[index[RHO_X]];
     const float y = m[RHO_Y] - factor * p[index[RHO_Y]];
     const float z = m[RHO_Z] - factor * p[index[RHO_Z]];
@@ -208,7 +107,7 @@ static enum rho_status update_axis_with_own_input(struct rho_input *input, int a
     const float vy = m[RHO_VY] - factor * p[index[RHO_VY]];
     const float vz = m[RHO_VZ] - factor * p[index[RHO_VZ]];
     if (!(factor * factor * p[index[element]] <= MOVED2_MAX && total <= FLT_MAX &&
-          learned_mps2 * learned_mps2 <= INPUT2_MAX)) {
+          learned_mps2 * learned_mps2 <= SQUARE_MAX)) {
         return RHO_ERROR_VALUE;
     }
     const enum rho_status status = rho_kalman_update(&input->bare, element, value, variance, NULL);
@@ -221,14 +120,14 @@ static enum rho_status update_axis_with_own_input(struct rho_input *input, int a
         m[RHO_VZ] = vz;
         input->input_mps2[axis] = learned_mps2;
         /* scaled instead of being reduced by a difference: no digits cancel */
-        input->variance[RHO_AT(axis, axis)] = at_least_floor(v * (bare / total));
+        input->variance[RHO_AT(axis, axis)] = rho_kalman_floored(v * (bare / total));
     }
     return status;
 }
 
-enum rho_status rho_input_update_filter_by_element(struct rho_input *input,
-                                                   const struct rho_input_config *config,
-                                                   int element, float value, float variance)
+enum rho_status rho_input_update_element(struct rho_input *input,
+                                         const struct rho_input_config *config, int element,
+                                         float value, float variance)
 {
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
@@ -240,19 +139,31 @@ enum rho_status rho_input_update_filter_by_element(struct rho_input *input,
     if (!config->is_estimated) {
         return rho_kalman_update(&input->bare, element, value, variance, NULL);
     }
-    if (!depends_on_own_input_only(input, element, axis)) {
-        return update_by_coupled_element(input, element, value, variance);
+    /* usually the element depends on no other axis' input, and the inputs are uncorrelated */
+    const int b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
+    if ((rho_size_bits(input->sensitivity[b][element]) |
+         rho_size_bits(input->sensitivity[c][element]) | rho_size_bits(input->variance[RHO_YX]) |
+         rho_size_bits(input->variance[RHO_ZX]) | rho_size_bits(input->variance[RHO_ZY])) == 0) {
+        return is_zero(input->sensitivity[axis][element])
+                   ? rho_kalman_update(&input->bare, element, value, variance, NULL)
+                   : update_axis_with_own_input(input, axis, element, value, variance);
     }
-    if (is_zero(
-            input->sensitivity[axis][element])) { /* the element does not depend on the inputs */
-        return rho_kalman_update(&input->bare, element, value, variance, NULL);
+    struct scalar_measurement scalar = {.element = element,
+                                        .value = value,
+                                        .noise = variance,
+                                        .off = value - input->bare.state[element]};
+    for (int i = 0; i < NUM_STATES; i++) {
+        scalar.projected[i] = input->bare.covariance[rho_linalg_row6[element][i]];
     }
-    return update_axis_with_own_input(input, axis, element, value, variance);
+    scalar.variance = rho_kalman_floored(variance) + scalar.projected[element];
+    for (int a = 0; a < NUM_AXES; a++) {
+        scalar.by_input[a] = input->sensitivity[a][element];
+    }
+    return update_all(input, &scalar);
 }
 
-enum rho_status rho_input_update_filter_by_row(struct rho_input *input,
-                                               const struct rho_input_config *config,
-                                               const float row[6], float innovation, float variance)
+enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,
+                                     const float row[6], float innovation, float variance)
 {
     if (input == NULL || config == NULL || row == NULL) {
         return RHO_ERROR_NULL;
@@ -260,5 +171,13 @@ enum rho_status rho_input_update_filter_by_row(struct rho_input *input,
     if (!config->is_estimated) {
         return rho_kalman_update_row(&input->bare, row, innovation, variance, NULL);
     }
-    return update_by_row(input, row, innovation, variance);
+    struct scalar_measurement scalar = {.row = row, .noise = variance, .off = innovation};
+    scalar.variance = rho_kalman_floored(variance) +
+                      rho_linalg_project6(input->bare.covariance, row, scalar.projected);
+    for (int a = 0; a < NUM_AXES; a++) {
+        for (int i = 0; i < NUM_STATES; i++) {
+            scalar.by_input[a] += row[i] * input->sensitivity[a][i];
+        }
+    }
+    return update_all(input, &scalar);
 }

@@ -41,7 +41,7 @@ int rho_anisotropic_nearest(struct search *search, const struct line_fit *fit,
                      (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest_plot_anisotropic(scan, &place, &search->initiator->work.window);
+    return rho_window_nearest_plot(scan, &place, &search->initiator->work.window);
 }
 
 /*
@@ -121,12 +121,10 @@ static int make_range_rate_equation(const struct regression *of, unsigned m,
         state[i] = of->origin_m[i] + of->unknown[i] + time * (v[i] + 0.5f * time * a);
         state[i + 3] = (v[i] + time * a) / of->unit_s;
     }
-    if (!rho_measurement_predict_range_rate(state, &scan->sensor, of->axes == 3, derivative,
-                                            &rate_mps)) {
+    if (!rho_measurement_predict_rate(state, &scan->sensor, of->axes == 3, derivative, &rate_mps)) {
         return 0;
     }
-    equation->value =
-        rho_measurement_range_rate_innovation_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
+    equation->value = rho_measurement_innovation_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     for (int i = 0; i < of->axes; i++) {
         equation->row[i] = derivative[i];
         equation->row[of->axes + i] = time * derivative[i] + derivative[i + 3] / of->unit_s;
@@ -254,8 +252,8 @@ static float acceleration_chi2(const struct regression *of)
 /* Span between the aliases of a sensor's range rates; the widest of all where it has none. */
 static float alias_span_mps(const struct rho_sensor *sensor)
 {
-    return rho_measurement_has_ambiguous_range_rates(sensor) ? sensor->range_rate_span_mps
-                                                             : RHO_LIMIT_SPAN_MAX_MPS;
+    return rho_measurement_is_ambiguous(sensor) ? sensor->range_rate_span_mps
+                                                : RHO_LIMIT_SPAN_MAX_MPS;
 }
 
 /*
@@ -272,7 +270,7 @@ static unsigned scan_with_widest_span(const struct regression *of)
         if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue;
         }
-        is_ambiguous = is_ambiguous || rho_measurement_has_ambiguous_range_rates(&scan->sensor);
+        is_ambiguous = is_ambiguous || rho_measurement_is_ambiguous(&scan->sensor);
         if (alias_span_mps(&scan->sensor) > most_mps) {
             most_mps = alias_span_mps(&scan->sensor);
             widest = m;
@@ -459,10 +457,10 @@ int rho_anisotropic_likelihood(const struct search *search, const struct plot_se
         unsigned has_z = of.axes == 3 && (scan->measures & RHO_MEASURES_Z) ? 1u : 0u;
         heights += has_z;
         range_rates += count - 2u - has_z;
-        if (rho_measurement_has_ambiguous_range_rates(&scan->sensor)) {
+        if (rho_measurement_is_ambiguous(&scan->sensor)) {
             log_aliases +=
                 (float)(count - 2u - has_z) *
-                rho_measurement_log_num_aliases(&scan->sensor, search->initiator->config.v_max_mps);
+                rho_measurement_log_aliases(&scan->sensor, search->initiator->config.v_max_mps);
         }
     }
     unsigned unknowns = 2u * (unsigned)of.axes;

@@ -288,8 +288,8 @@ void rho_false_tracks_model(const struct search *search, struct false_tracks *mo
     model->log_aliases = 0.0f;
     if (model->has_range_rate) {
         for (unsigned m = 0; m < num_scans; m++) {
-            model->log_aliases += rho_measurement_log_num_aliases(
-                &rho_search_scan(search, m)->sensor, search->initiator->config.v_max_mps);
+            model->log_aliases += rho_measurement_log_aliases(&rho_search_scan(search, m)->sensor,
+                                                              search->initiator->config.v_max_mps);
         }
         model->log_aliases = model->log_aliases / (float)num_scans;
     }

@@ -124,7 +124,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
      */
     if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
-        !rho_window_is_next_sector_of_newest_scan(&initiator->window, scan, sensor)) {
+        !rho_window_continues_newest(&initiator->window, scan, sensor)) {
         rho_clutter_memory_add(initiator);
     }
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);

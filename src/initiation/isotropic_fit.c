@@ -79,8 +79,7 @@ int rho_isotropic_nearest(struct search *search, const struct line_fit *fit, flo
             RHO_GATE_CHI2_2D * (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest_plot_in_sigmas_isotropic(scan, &query,
-                                                       &search->initiator->work.window);
+    return rho_window_nearest_isotropic(scan, &query, &search->initiator->work.window);
 }
 
 /*

@@ -45,8 +45,7 @@ struct ending {
     float along_x, along_y; /* unit vector of the line of sight; 0, 0: not used */
     float rounding_m;       /* rounding error of places extrapolated from this plot, in float32 */
     int is_clear;           /* clutter here is thin: M votes suffice in all spans */
-    struct rho_window_plot_noise_covariance
-        noise; /* covariance of the plot; not set with isotropic noise */
+    struct rho_window_plot_noise noise; /* covariance of the plot; not set with isotropic noise */
 };
 
 /*

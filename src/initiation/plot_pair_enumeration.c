@@ -506,7 +506,7 @@ int rho_kernels_try_ending(struct search *search, const struct span_list *list, 
     ending.rounding_m =
         1e-6f * (rho_larger(plot->x_m, -plot->x_m) + rho_larger(plot->y_m, -plot->y_m) + far_m);
     if (!rho_search_is_isotropic(search)) {
-        ending.noise = rho_window_plot_noise_covariance(widest->scan_b, plot);
+        ending.noise = rho_window_plot_noise(widest->scan_b, plot);
     }
     rho_vote_gates_of_ending(search, far_m + widest->slack_m + widest->voters[0].gate_radius_m,
                              &ending);

@@ -22,7 +22,7 @@ struct kernel {
     /* isotropic noise: look-up of a vote, with the values common to all scans */
     struct rho_window_query query;
     /* anisotropic noise: the covariances of first and last plot */
-    struct rho_window_plot_noise_covariance noise_a, noise_b;
+    struct rho_window_plot_noise noise_a, noise_b;
     /* anisotropic noise: look-up of a vote, with the values common to all scans */
     struct rho_window_place place;
 };
@@ -56,7 +56,7 @@ static int is_range_rate_in_gate(const struct rho_window_scan *scan,
  */
 static int set_up_kernel(struct search *search, const struct span *span, struct kernel *kernel)
 {
-    const struct rho_window_plot_noise_covariance *a = &kernel->noise_a, *b = &kernel->noise_b;
+    const struct rho_window_plot_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
     struct rho_window_place *place = &kernel->place;
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     if (rho_search_is_isotropic(search)) {
@@ -72,7 +72,7 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
         return 1;
     }
     rho_search_charge(search, search->has_more ? MORE_UNITS : OWN_NOISE_UNITS);
-    kernel->noise_a = rho_window_plot_noise_covariance(span->scan_a, kernel->from);
+    kernel->noise_a = rho_window_plot_noise(span->scan_a, kernel->from);
     float per_s = 1.0f / kernel->duration_s, per_s2 = per_s * per_s;
     *place = (struct rho_window_place){
         .vx_mps = kernel->dx_m * per_s,
@@ -85,7 +85,7 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
         return 1;
     }
     float turned = squared(0.5f * search->turn_mps2 * kernel->duration_s), over_mps = 0.0f;
-    place->velocity_noise = (struct rho_window_plot_noise_covariance){
+    place->velocity_noise = (struct rho_window_plot_noise){
         (a->xx_m2 + b->xx_m2) * per_s2 + turned, (a->xy_m2 + b->xy_m2) * per_s2,
         (a->yy_m2 + b->yy_m2) * per_s2 + turned, (a->zz_m2 + b->zz_m2) * per_s2};
     if (place->has_z) {
@@ -122,19 +122,19 @@ static int find_vote(struct search *search, const struct span *span, unsigned m,
         query->variance_m2 =
             (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 + process_m2;
         query->gate_radius_m = gate_radius_m;
-        return rho_window_nearest_plot_in_sigmas_isotropic(scan, query, work);
+        return rho_window_nearest_isotropic(scan, query, work);
     }
-    const struct rho_window_plot_noise_covariance *a = &kernel->noise_a, *b = &kernel->noise_b;
+    const struct rho_window_plot_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
     struct rho_window_place *place = &kernel->place;
     float from = (1.0f - al) * (1.0f - al), to = al * al;
     place->x_m = x_m;
     place->y_m = y_m;
     place->z_m = kernel->from->z_m + al * (kernel->to->z_m - kernel->from->z_m);
-    place->noise = (struct rho_window_plot_noise_covariance){
+    place->noise = (struct rho_window_plot_noise){
         from * a->xx_m2 + to * b->xx_m2 + process_m2, from * a->xy_m2 + to * b->xy_m2,
         from * a->yy_m2 + to * b->yy_m2 + process_m2, from * a->zz_m2 + to * b->zz_m2 + process_m2};
     place->gate_radius_m = gate_radius_m;
-    return rho_window_nearest_plot_anisotropic(scan, place, work);
+    return rho_window_nearest_plot(scan, place, work);
 }
 
 static void add_vote(struct plot_set *set, unsigned m, int plot_index)
@@ -211,7 +211,7 @@ static int list_aliases(const struct rho_window_scan *scan, const struct rho_win
                         const struct rho_window_place *place, struct aliases *aliases)
 {
     if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_has_ambiguous_range_rates(&scan->sensor) ||
+        !rho_measurement_is_ambiguous(&scan->sensor) ||
         !rho_window_compare_range_rate(scan, plot, place, &aliases->seen)) {
         return 0;
     }
@@ -233,7 +233,7 @@ static int list_aliases(const struct rho_window_scan *scan, const struct rho_win
 static void update_velocity(const struct aliases *aliases, int i,
                             const struct rho_window_place *place, struct rho_window_place *known)
 {
-    const struct rho_window_plot_noise_covariance *noise = &place->velocity_noise;
+    const struct rho_window_plot_noise *noise = &place->velocity_noise;
     const float *u = aliases->seen.along;
     const float toward[3] = {noise->xx_m2 * u[0] + noise->xy_m2 * u[1],
                              noise->xy_m2 * u[0] + noise->yy_m2 * u[1], noise->zz_m2 * u[2]};

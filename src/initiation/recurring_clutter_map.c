@@ -134,8 +134,7 @@ void rho_clutter_map_age_counts(struct rho_clutter_map *map, float turn_share)
     }
 }
 
-struct echo_view rho_clutter_map_view_from_sensor(const struct rho_sensor *sensor, float x_m,
-                                                  float y_m)
+struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m, float y_m)
 {
     const float dx_m = x_m - (sensor ? sensor->x_m : 0.0f);
     const float dy_m = y_m - (sensor ? sensor->y_m : 0.0f);
@@ -146,7 +145,7 @@ struct echo_view rho_clutter_map_view_from_sensor(const struct rho_sensor *senso
     return (struct echo_view){dx_m / range_m, dy_m / range_m, range_m};
 }
 
-float rho_clutter_map_azimuth_in_turns(const struct echo_view *view)
+float rho_clutter_map_azimuth_turns(const struct echo_view *view)
 {
     return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
 }
@@ -159,12 +158,11 @@ static unsigned region_index_on_axis(float share)
                        : 0;
 }
 
-uint8_t rho_clutter_map_region_of_place(const struct rho_sensor *sensor, float range_max_m,
-                                        float x_m, float y_m)
+uint8_t rho_clutter_map_region_at(const struct rho_sensor *sensor, float range_max_m, float x_m,
+                                  float y_m)
 {
-    const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, x_m, y_m);
-    return (uint8_t)(region_index_on_axis(rho_clutter_map_azimuth_in_turns(&view)) *
-                         RHO_ECHO_REGIONS +
+    const struct echo_view view = rho_clutter_map_view(sensor, x_m, y_m);
+    return (uint8_t)(region_index_on_axis(rho_clutter_map_azimuth_turns(&view)) * RHO_ECHO_REGIONS +
                      region_index_on_axis(rho_sqrt(view.range_m / range_max_m)));
 }
 
@@ -204,7 +202,7 @@ static void update_axis_covariance(float axis[3], float variance_m2, float off_m
 void rho_clutter_map_update_echo(struct rho_echo *echo, const struct rho_sensor *sensor,
                                  const struct rho_plot *plot)
 {
-    const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, echo->x_m, echo->y_m);
+    const struct echo_view view = rho_clutter_map_view(sensor, echo->x_m, echo->y_m);
     const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
     float along[2], across[2];
     update_axis_covariance(echo->along, plot->sigma_range_m * plot->sigma_range_m,

@@ -145,7 +145,7 @@ static inline float rho_search_plot_time_s(const struct search *search, const st
 }
 
 /* Units of work that the search has done so far (search_budget.c). */
-uint32_t rho_initiator_work_spent(const struct search *search);
+uint32_t rho_search_work_spent(const struct search *search);
 /* True where the work exceeds its current limit. */
 int rho_search_is_over_limit(const struct search *search);
 /* Adds units to the work done. */

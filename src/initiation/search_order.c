@@ -49,7 +49,7 @@ static void try_cost_class(struct search *search, const struct span_list *list, 
         if (end_units != UINT32_MAX) { /* UINT32_MAX: no limit */
             /* the shares of the waiting plots stay; the plot may take a part of the rest */
             uint32_t ceiling = end_units - pass->kept_units * pass->waiting;
-            uint32_t own = rho_count(rho_initiator_work_spent(search), pass->kept_units);
+            uint32_t own = rho_count(rho_search_work_spent(search), pass->kept_units);
             unsigned others =
                 pass->waiting < PLOT_FREE_PARTS - 1u ? pass->waiting : PLOT_FREE_PARTS - 1u;
             search->limit_units = own < ceiling ? own + (ceiling - own) / (others + 1u) : ceiling;
@@ -134,7 +134,7 @@ void rho_kernels_try_turning(struct search *search)
     struct rho_initiator_budget *budget = &search->initiator->budget;
     const struct rho_initiator_resume next = search->next;
     const uint32_t plots_not_tried = budget->plots_not_tried, work_max = search->work_max;
-    const uint32_t spent = rho_initiator_work_spent(search), end_units = search->limit_units;
+    const uint32_t spent = rho_search_work_spent(search), end_units = search->limit_units;
     uint32_t units = work_max - work_max / CHOICE_SHARE;
     units = work_max == 0 ? UINT32_MAX : units > spent ? units - spent : 0u;
     const uint32_t share = search->has_more ? spent : spent / TURN_SHARE_OF_PLACES;

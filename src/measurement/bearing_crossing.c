@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/detail/bearing_crossing.h"
 
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-
-/*
- * Least angle between the bearings of a crossing: sin(delta) of a smaller one has no significant
- * digits.
- */
-#define DELTA_MIN_RAD 1.0e-6f
 
 /* True where both coordinates are finite and within RHO_LIMIT_POSITION_M. */
 static int is_valid_place(float x_m, float y_m)
@@ -39,13 +34,6 @@ enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_
     return RHO_OK;
 }
 
-/* Angles of two bearings to the base, and the angle delta between the bearings. */
-struct base_angles {
-    float a_rad, b_rad; /* |beta_a| and |beta_b| */
-    float delta_rad;
-    int are_on_one_side;
-};
-
 static float without_sign(float v)
 {
     return v < 0.0f ? -v : v;
@@ -55,6 +43,12 @@ static float without_sign(float v)
  * Angles of two bearings to the base. delta is the difference of the bearings themselves, which is
  * exact where it is small.
  */
+struct base_angles {
+    float a_rad, b_rad; /* |beta_a| and |beta_b| */
+    float delta_rad;
+    int are_on_one_side;
+};
+
 static struct base_angles crossing_angles(const struct rho_crossing_base *base, float bearing_a_rad,
                                           float bearing_b_rad)
 {
@@ -71,33 +65,17 @@ static struct base_angles crossing_angles(const struct rho_crossing_base *base, 
  * B sin(beta), as the distance of one sensor from the other one's line of sight: the rounding of
  * the base's direction does not enter.
  */
-static float perpendicular_from_sensor_to_ray_m(const struct rho_crossing_base *base,
-                                                float bearing_rad)
+static float ray_distance_m(const struct rho_crossing_base *base, float bearing_rad)
 {
     float dx_m = base->x_b_m - base->x_a_m, dy_m = base->y_b_m - base->y_a_m;
     return without_sign(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
 }
 
-float rho_crossing_angle_or_minus_pi_rad(const struct rho_crossing_base *base, float bearing_a_rad,
-                                         float bearing_b_rad)
+float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing_a_rad,
+                             float bearing_b_rad)
 {
     struct base_angles angles = crossing_angles(base, bearing_a_rad, bearing_b_rad);
     return angles.are_on_one_side ? angles.delta_rad : -RHO_PI;
-}
-
-/*
- * Computes the place of a crossing from the nearer sensor: the rounding of sin(delta) is a relative
- * error of the range, and moves the place less.
- */
-static void place_crossing_by_shorter_range(const struct rho_crossing_base *base,
-                                            float bearing_a_rad, float bearing_b_rad,
-                                            struct rho_crossing *crossing)
-{
-    int from_a = crossing->range_a_m <= crossing->range_b_m;
-    float bearing_rad = from_a ? bearing_a_rad : bearing_b_rad;
-    float range_m = from_a ? crossing->range_a_m : crossing->range_b_m;
-    crossing->x_m = (from_a ? base->x_a_m : base->x_b_m) + range_m * rho_cos(bearing_rad);
-    crossing->y_m = (from_a ? base->y_a_m : base->y_b_m) + range_m * rho_sin(bearing_rad);
 }
 
 enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, float bearing_a_rad,
@@ -112,15 +90,23 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
         return RHO_CROSSING_APART;
     }
     float sine = rho_sin(angles.delta_rad);
-    float over_a_m = perpendicular_from_sensor_to_ray_m(base, bearing_b_rad);
-    float over_b_m = perpendicular_from_sensor_to_ray_m(base, bearing_a_rad);
+    float over_a_m = ray_distance_m(base, bearing_b_rad);
+    float over_b_m = ray_distance_m(base, bearing_a_rad);
     if (!(over_a_m <= range_max_m * sine && over_b_m <= range_max_m * sine)) {
         return RHO_CROSSING_RANGE;
     }
     crossing->delta_rad = angles.delta_rad;
     crossing->range_a_m = over_a_m / sine;
     crossing->range_b_m = over_b_m / sine;
-    place_crossing_by_shorter_range(base, bearing_a_rad, bearing_b_rad, crossing);
+    /*
+     * from the nearer sensor: the rounding of sin(delta) is a relative error of the range, and
+     * moves the place less
+     */
+    const int from_a = crossing->range_a_m <= crossing->range_b_m;
+    const float bearing_rad = from_a ? bearing_a_rad : bearing_b_rad;
+    const float range_m = from_a ? crossing->range_a_m : crossing->range_b_m;
+    crossing->x_m = (from_a ? base->x_a_m : base->x_b_m) + range_m * rho_cos(bearing_rad);
+    crossing->y_m = (from_a ? base->y_a_m : base->y_b_m) + range_m * rho_sin(bearing_rad);
     return RHO_CROSSING_MEETS;
 }
 
@@ -137,17 +123,4 @@ void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_
     covariance_m2[0] = ax_m * ax_m + bx_m * bx_m;
     covariance_m2[1] = ax_m * ay_m + bx_m * by_m;
     covariance_m2[2] = ay_m * ay_m + by_m * by_m;
-}
-
-/* Names as characters instead of pointers: the table needs no relocations. */
-static const char names[RHO_NUM_CROSSING_FATES][6] = {
-    [RHO_CROSSING_MEETS] = "meets",
-    [RHO_CROSSING_SIDES] = "sides",
-    [RHO_CROSSING_APART] = "apart",
-    [RHO_CROSSING_RANGE] = "range",
-};
-
-const char *rho_crossing_fate_name(enum rho_crossing_fate fate)
-{
-    return (unsigned)fate < RHO_NUM_CROSSING_FATES ? names[fate] : "unknown";
 }

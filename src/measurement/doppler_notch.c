@@ -5,49 +5,23 @@
  */
 #include "rhotrack/detail/doppler_notch.h"
 
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
 
-#define ROOT_TWO_PI 2.50662827f
-
-/* Blind zones farther from the expected range rate than this many sigmas are ignored. */
-#define ZONE_SIGMAS 4.0f
-/*
- * With more than this many blind zones within reach, all range rates are taken as equally likely.
- */
-#define ZONES_MAX 9
-#define NUMBER_MAX 1.0e6f
-
-/* Least and largest ratio of a range rate's variance after a miss to the variance before. */
-#define KEPT_MIN 0.01f
-#define KEPT_MAX 4.0f
-
-/* Factor by which a variance is raised before it is reduced, against rounding, as in linalg.c. */
-#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
-#define VARIANCE_MIN 1.0e-9f
-#define VARIANCE_MAX 1.0e12f
-
-/* A target may stand if its speed across the line of sight is within this many sigmas of 0. */
-#define STAND_SIGMAS 2.0f
-/* Least probability that a miss was due to the notch at which the target is assumed to stand. */
-#define STAND_SHARE 0.5f
-
-#define SPEED_MAX_MPS (2.0f * RHO_LIMIT_SPEED_MPS)
-
 int rho_notch_is_valid(const struct rho_sensor *sensor)
 {
     const float notch_mps = sensor->notch_mps, blind_mps = sensor->blind_speed_mps;
-    return rho_is_within(notch_mps, 0.0f, SPEED_MAX_MPS) &&
-           rho_is_within(blind_mps, 0.0f, SPEED_MAX_MPS) &&
+    const float speed_max_mps = 2.0f * RHO_LIMIT_SPEED_MPS;
+    return rho_is_within(notch_mps, 0.0f, speed_max_mps) &&
+           rho_is_within(blind_mps, 0.0f, speed_max_mps) &&
            (!(blind_mps > 0.0f) || blind_mps > 2.0f * notch_mps);
 }
 
-/* ---- a normal range rate --------------------------------------------------------------------- */
-
 static float normal_density(float sigmas)
 {
-    return rho_exp(-0.5f * sigmas * sigmas) * (1.0f / ROOT_TWO_PI);
+    return rho_exp(-0.5f * sigmas * sigmas) * (1.0f / RHO_ROOT_TWO_PI);
 }
 
 /*
@@ -72,16 +46,6 @@ struct blind_moments_sum {
     float share, first, second;
 };
 
-/* Adds the integrals over one blind zone, whose ends are in sigmas from the mean. */
-static void add_zone_moments(struct blind_moments_sum *sum, float from, float to)
-{
-    const float at_from = normal_density(from), at_to = normal_density(to);
-    const float share = normal_cdf(to, at_to) - normal_cdf(from, at_from);
-    sum->share += share;
-    sum->first += at_from - at_to;
-    sum->second += share + from * at_from - to * at_to;
-}
-
 static struct blind_moments_sum blind_moments(const struct rho_sensor *sensor, float mean_mps,
                                               float sigma_mps)
 {
@@ -96,7 +60,7 @@ static struct blind_moments_sum blind_moments(const struct rho_sensor *sensor, f
             return (struct blind_moments_sum){share, 0.0f, share};
         }
         const float before = (mean_mps - reach_mps) / blind_mps;
-        if (!rho_is_within(before, -NUMBER_MAX, NUMBER_MAX)) {
+        if (!rho_is_within(before, -1.0e6f, 1.0e6f)) {
             return sum; /* the mean is beyond any target's range rate */
         }
         first = (int32_t)before;
@@ -105,15 +69,18 @@ static struct blind_moments_sum blind_moments(const struct rho_sensor *sensor, f
     for (int32_t number = first; number <= last; number++) {
         const float off_mps = (float)number * blind_mps - mean_mps;
         if (off_mps <= reach_mps && off_mps >= -reach_mps) {
-            add_zone_moments(&sum, (off_mps - sensor->notch_mps) * per_sigma,
-                             (off_mps + sensor->notch_mps) * per_sigma);
+            const float from = (off_mps - sensor->notch_mps) * per_sigma;
+            const float to = (off_mps + sensor->notch_mps) * per_sigma;
+            const float at_from = normal_density(from), at_to = normal_density(to);
+            const float share = normal_cdf(to, at_to) - normal_cdf(from, at_from);
+            sum.share += share;
+            sum.first += at_from - at_to;
+            sum.second += share + from * at_from - to * at_to;
         }
     }
     sum.share = sum.share < 0.0f ? 0.0f : sum.share < 1.0f ? sum.share : 1.0f;
     return sum;
 }
-
-/* ---- estimates ------------------------------------------------------------------------------- */
 
 /* A linear function of the state, such as the range rate, with its mean and variance. */
 struct component {
@@ -127,12 +94,12 @@ static int predict_notched_range_rate(const struct rho_sensor *sensor, const flo
 {
     float projected[6];
     if (!rho_notch_sensor_has_notch(sensor) ||
-        !rho_measurement_predict_range_rate(state, sensor, covariance[RHO_AT(2, 2)] > 0.0f,
-                                            view->row, &view->mean)) {
+        !rho_measurement_predict_rate(state, sensor, covariance[RHO_AT(2, 2)] > 0.0f, view->row,
+                                      &view->mean)) {
         return 0;
     }
     view->variance = rho_linalg_project6(covariance, view->row, projected);
-    return rho_is_within(view->variance, VARIANCE_MIN, VARIANCE_MAX);
+    return rho_is_within(view->variance, RHO_VARIANCE_MIN, RHO_VARIANCE_MAX);
 }
 
 float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *state,
@@ -168,27 +135,28 @@ static void impose_component_moments(const struct component *view, float mean_sh
         }
         float *own = &covariance[RHO_AT(i, i)];
         if (*own > 0.0f) {
-            *own = *own * ROUNDING_ALLOWANCE - projected[i] * projected[i] * taken;
-            *own = *own > VARIANCE_MIN ? *own : VARIANCE_MIN;
+            *own = *own * RHO_ROUNDING_ALLOWANCE - projected[i] * projected[i] * taken;
+            *own = *own > RHO_VARIANCE_MIN ? *own : RHO_VARIANCE_MIN;
         }
     }
 }
 
 /*
- * Measures the speed across the line of sight as 0, with the notch's width as its sigma, if the
- * estimate allows that the target stands: a standing target has no speed across, either.
+ * Measures the speed across the line of sight as 0, with the notch's width as its sigma, if it is
+ * within two sigmas of 0: a standing target has no speed across, either.
  */
-static void impose_no_cross_speed_if_may_stand(const struct component *rate, float notch_mps,
-                                               int num_states, float *state, float *covariance)
+static void impose_standing(const struct component *rate, float notch_mps, int num_states,
+                            float *state, float *covariance)
 {
     struct component across = {.row = {0.0f, 0.0f, 0.0f, -rate->row[4], rate->row[3], 0.0f}};
     float projected[6];
     across.mean = across.row[3] * state[3] + across.row[4] * state[4];
     across.variance = rho_linalg_project6(covariance, across.row, projected);
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * notch_mps;
-    if (across.variance > VARIANCE_MIN &&
+    if (across.variance > RHO_VARIANCE_MIN &&
         across.mean * across.mean <
-            STAND_SIGMAS * STAND_SIGMAS * across.variance + most_mps * most_mps) {
+            RHO_NOTCH_STAND_WIDTHS * RHO_NOTCH_STAND_WIDTHS * across.variance +
+                most_mps * most_mps) {
         const float kept = notch_mps * notch_mps / (across.variance + notch_mps * notch_mps);
         impose_component_moments(&across, across.mean * (kept - 1.0f), across.variance * kept,
                                  num_states, state, covariance);
@@ -213,7 +181,7 @@ float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho
                                  covariance);
     }
     if (look->may_stand && blind.share > STAND_SHARE * missed) {
-        impose_no_cross_speed_if_may_stand(&rate, sensor->notch_mps, num_states, state, covariance);
+        impose_standing(&rate, sensor->notch_mps, num_states, state, covariance);
     }
     return missed;
 }

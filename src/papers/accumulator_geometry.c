@@ -4,7 +4,7 @@
  * centres, and the cell of each point in a row of theta. The loops over points are the hot loops of
  * each row.
  */
-#include "accumulator_peak_search.h"
+#include "accumulator_search.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"

@@ -254,7 +254,7 @@ static void run_passes(struct rho_hough *hough, const struct rho_hough_points *p
         struct rho_hough_pass pass = begin_pass(hough, points, component, first, count);
         const struct rho_hough_result *found = &pass.found;
         pass.plane = plane;
-        rho_hough_vote_successive_scan_pairs(&pass);
+        rho_hough_vote_pairs(&pass);
         if (pass.is_full && count > 1) {
             rows = count / 2;
             continue;
@@ -293,7 +293,7 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
             .min_votes = round_up_votes(hough->config.votes_min * (float)RHO_HOUGH_VOTE),
             .min_share = hough->config.tau};
         run_passes(hough, points, RHO_HOUGH_VOTES, NULL, &list, result);
-        rho_peak_list_drop_weak_and_sort(&list);
+        rho_peak_list_sort(&list);
         result->num_peaks = list.num_peaks;
         result->cells_dropped = list.peaks_dropped;
         result->votes_max = list.votes_max;

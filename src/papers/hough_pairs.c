@@ -57,9 +57,9 @@ static float line_distance2(const struct rho_hough *hough, struct rho_line a, st
     return rho * rho <= 4.0f && theta * theta <= 4.0f ? rho * rho + theta * theta : -1.0f;
 }
 
-void rho_hough_update_two_nearest_kernels(const struct rho_hough *hough, struct rho_line line,
-                                          struct rho_line kernel, struct rho_hough_pair pair,
-                                          struct rho_hough_nearest *nearest)
+void rho_hough_rank_kernel(const struct rho_hough *hough, struct rho_line line,
+                           struct rho_line kernel, struct rho_hough_pair pair,
+                           struct rho_hough_nearest *nearest)
 {
     float distance2 = line_distance2(hough, line, kernel);
     if (distance2 < 0.0f) {
@@ -90,10 +90,9 @@ void rho_hough_update_two_nearest_kernels(const struct rho_hough *hough, struct 
  * Indeterminacy of a line: Gaussian of its distance from the line midway between the two nearest
  * kernels; 0 where there are not two kernels or they are farther than 2 eps.
  */
-static float indeterminacy_from_middle_of_two_kernels(const struct rho_hough *hough,
-                                                      const struct rho_hough_points *points,
-                                                      struct rho_line line,
-                                                      const struct rho_hough_nearest *nearest)
+static float kernel_indeterminacy(const struct rho_hough *hough,
+                                  const struct rho_hough_points *points, struct rho_line line,
+                                  const struct rho_hough_nearest *nearest)
 {
     const struct rho_hough_pair *a = &nearest->pair[0], *b = &nearest->pair[1];
     const float *x_m = points->at.x_m, *y_m = points->at.y_m;
@@ -115,27 +114,25 @@ static uint32_t to_vote_parts(float membership)
 }
 
 /* Falsity of every vote: lambda times the squared probability of a false plot. */
-static float falsity_by_false_plot_probability(const struct rho_hough *hough)
+static float pair_falsity(const struct rho_hough *hough)
 {
     return hough->config.lambda_k * hough->config.p_false * hough->config.p_false;
 }
 
-struct rho_hough_memberships rho_hough_truth_indeterminacy_falsity_of_line(
-    const struct rho_hough *hough, const struct rho_hough_points *points, struct rho_line line,
-    const struct rho_hough_nearest *nearest)
+struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
+                                                           const struct rho_hough_points *points,
+                                                           struct rho_line line,
+                                                           const struct rho_hough_nearest *nearest)
 {
-    const float f = falsity_by_false_plot_probability(hough);
+    const float f = pair_falsity(hough);
     return (struct rho_hough_memberships){
         .truth = nearest->count > 0 ? to_vote_parts(rho_exp(-0.5f * nearest->distance2[0])) : 0,
-        .indeterminacy =
-            to_vote_parts(indeterminacy_from_middle_of_two_kernels(hough, points, line, nearest)),
+        .indeterminacy = to_vote_parts(kernel_indeterminacy(hough, points, line, nearest)),
         .falsity = to_vote_parts(f < 1.0f ? f : 1.0f)};
 }
 
-uint32_t rho_hough_vote_weight_by_nearest_kernels(const struct rho_hough *hough,
-                                                  const struct rho_hough_points *points,
-                                                  struct rho_line line,
-                                                  const struct rho_hough_nearest *nearest)
+uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
+                               struct rho_line line, const struct rho_hough_nearest *nearest)
 {
     const struct rho_hough_config *config = &hough->config;
     if (nearest->count == 0) {
@@ -143,10 +140,10 @@ uint32_t rho_hough_vote_weight_by_nearest_kernels(const struct rho_hough *hough,
     }
     float vote = rho_exp(-0.5f * nearest->distance2[0]);
     if (config->uses_indeterminacy) {
-        float i = indeterminacy_from_middle_of_two_kernels(hough, points, line, nearest);
+        float i = kernel_indeterminacy(hough, points, line, nearest);
         vote = i > vote ? i : vote;
     }
-    return falsity_by_false_plot_probability(hough) > vote ? 0 : to_vote_parts(vote);
+    return pair_falsity(hough) > vote ? 0 : to_vote_parts(vote);
 }
 
 /*
@@ -224,7 +221,7 @@ static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough_pass
                 struct bin in = bin_of_line(hough, at);
                 struct rho_hough_pair pair = {first + kernel->first, second + kernel->second};
                 if (in.theta == bin.theta && in.rho == bin.rho) { /* chains hold other bins too */
-                    rho_hough_update_two_nearest_kernels(hough, line, at, pair, &nearest);
+                    rho_hough_rank_kernel(hough, line, at, pair, &nearest);
                 }
             }
         }
@@ -241,15 +238,14 @@ static uint32_t larger(uint32_t a, uint32_t b)
  * The amount that a pair adds to the sum of the pass' component in its cell: its vote, or one of
  * its memberships.
  */
-static uint32_t vote_or_membership_of_pass_component(const struct rho_hough_pass *pass,
-                                                     struct rho_line line,
-                                                     const struct rho_hough_nearest *nearest)
+static uint32_t vote_component(const struct rho_hough_pass *pass, struct rho_line line,
+                               const struct rho_hough_nearest *nearest)
 {
     if (pass->component == RHO_HOUGH_VOTES) {
-        return rho_hough_vote_weight_by_nearest_kernels(pass->hough, pass->points, line, nearest);
+        return rho_hough_vote_weight(pass->hough, pass->points, line, nearest);
     }
     const struct rho_hough_memberships of =
-        rho_hough_truth_indeterminacy_falsity_of_line(pass->hough, pass->points, line, nearest);
+        rho_hough_memberships_of_line(pass->hough, pass->points, line, nearest);
     return pass->component == RHO_HOUGH_TRUTH           ? of.truth
            : pass->component == RHO_HOUGH_INDETERMINACY ? of.indeterminacy
            : pass->component == RHO_HOUGH_FALSITY
@@ -258,8 +254,8 @@ static uint32_t vote_or_membership_of_pass_component(const struct rho_hough_pass
 }
 
 /* Votes for a pair by its nearest kernels, and keeps it as a kernel for the next scan's pairs. */
-static void vote_pair_and_store_kernel(struct rho_hough_pass *pass, unsigned scan,
-                                       struct rho_line line, struct rho_hough_pair pair)
+static void vote_with_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
+                              struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = pass->hough;
     const struct rho_hough_points *points = pass->points;
@@ -267,7 +263,7 @@ static void vote_pair_and_store_kernel(struct rho_hough_pass *pass, unsigned sca
     int32_t row = rho_hough_row_of_theta(hough, line.theta_rad);
     if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
         struct rho_hough_nearest nearest = find_nearest_kernels(pass, scan, line);
-        uint32_t votes = vote_or_membership_of_pass_component(pass, line, &nearest);
+        uint32_t votes = vote_component(pass, line, &nearest);
         if (votes > 0) {
             rho_hough_add_votes(pass, line, votes);
         }
@@ -312,7 +308,7 @@ static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint3
         }
         struct rho_line line = rho_hough_line_through_pair(pass->points, pair);
         if (rho_hough_uses_kernels(hough)) {
-            vote_pair_and_store_kernel(pass, scan, line, pair);
+            vote_with_kernels(pass, scan, line, pair);
         } else if (rho_hough_has_row(hough, pass->wanted,
                                      rho_hough_row_of_theta(hough, line.theta_rad))) {
             rho_hough_add_votes(pass, line, RHO_HOUGH_VOTE);
@@ -320,7 +316,7 @@ static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint3
     }
 }
 
-void rho_hough_vote_successive_scan_pairs(struct rho_hough_pass *pass)
+void rho_hough_vote_pairs(struct rho_hough_pass *pass)
 {
     const struct rho_hough_points *points = pass->points;
     rho_hough_clear_cells(pass);

@@ -4,10 +4,10 @@
  * Each file calls only files above it in this list:
  *
  * - hough_geometry.c: rows and columns of the plane
- * - hough_hash_of_votes_and_their_spread.c: the hash of cells with votes; the spread of NHT_C over
+ * - hough_votes.c: the hash of cells with votes; the spread of NHT_C over
  * their neighbours
  * - hough_pairs.c: pairs of plots, their lines, and the votes that the kernels of NHT give them
- * - hough_fit_track_to_voters.c: the plots that voted for a cell, and the track fitted through
+ * - hough_voters.c: the plots that voted for a cell, and the track fitted through
  *   them; the memberships of a vote
  * - hough.c: configuration, passes over theta, thresholds and suppression
  */
@@ -80,24 +80,23 @@ struct rho_hough_nearest {
  * Enters a kernel into the two nearest of a line if it is within 2 eps and nearer. Among equally
  * near kernels the one with the lower plots counts.
  */
-void rho_hough_update_two_nearest_kernels(const struct rho_hough *hough, struct rho_line line,
-                                          struct rho_line kernel, struct rho_hough_pair pair,
-                                          struct rho_hough_nearest *nearest);
+void rho_hough_rank_kernel(const struct rho_hough *hough, struct rho_line line,
+                           struct rho_line kernel, struct rho_hough_pair pair,
+                           struct rho_hough_nearest *nearest);
 
 /*
  * Vote of a pair with the given nearest kernels, in units of 1 / RHO_HOUGH_VOTE; 0: it does not
  * vote.
  */
-uint32_t rho_hough_vote_weight_by_nearest_kernels(const struct rho_hough *hough,
-                                                  const struct rho_hough_points *points,
-                                                  struct rho_line line,
-                                                  const struct rho_hough_nearest *nearest);
-struct rho_hough_memberships rho_hough_truth_indeterminacy_falsity_of_line(
-    const struct rho_hough *hough, const struct rho_hough_points *points, struct rho_line line,
-    const struct rho_hough_nearest *nearest);
+uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
+                               struct rho_line line, const struct rho_hough_nearest *nearest);
+struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
+                                                           const struct rho_hough_points *points,
+                                                           struct rho_line line,
+                                                           const struct rho_hough_nearest *nearest);
 
 /* Lets all pairs of plots vote, for the rows of a pass. */
-void rho_hough_vote_successive_scan_pairs(struct rho_hough_pass *pass);
+void rho_hough_vote_pairs(struct rho_hough_pass *pass);
 
 void rho_hough_clear_cells(struct rho_hough_pass *pass);
 void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint32_t votes);

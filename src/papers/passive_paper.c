@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "passive_paper_hough_search_state.h"
+#include "passive_paper_search.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
@@ -129,8 +129,8 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     for (unsigned k = 0; k < batch->num_scans; k++) {
         search.step[k] = rho_seconds_between(first_us, batch->time_us[k]) / search.half_s - 1.0f;
     }
-    rho_passive_paper_vote_with_all_sensor_pairs(&search);
-    rho_passive_paper_pick_peaks_as_lines(&search);
+    rho_passive_paper_vote_pairs(&search);
+    rho_passive_paper_pick_lines(&search);
     rho_passive_paper_fit_lines(&search);
     return RHO_OK;
 }

@@ -3,7 +3,7 @@
  * passive_paper_view: shows intermediate results of the last search: ghost matrices, and planes of
  * votes. They are computed again from the batch, which is unchanged until the next frame.
  */
-#include "passive_paper_hough_search_state.h"
+#include "passive_paper_search.h"
 #include "policy.h"
 #include "rhotrack/types.h"
 
@@ -128,14 +128,14 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
     if (pair) {
         rho_passive_paper_cross(&search, pair->a, pair->b);
     } else {
-        rho_passive_paper_vote_with_all_sensor_pairs(&search);
+        rho_passive_paper_vote_pairs(&search);
         paper->work = work;
     }
     for (int row = 0; row < search.rows; row++) {
         /* the sums of all pairs count from 1, as 0 is a cell that is not confirmed */
         const uint8_t *votes = pair ? paper->rows[0] : paper->cells[row];
         if (pair) {
-            rho_passive_paper_count_row_votes_of_pair(&search, row, paper->rows[0]);
+            rho_passive_paper_count_row(&search, row, paper->rows[0]);
         }
         for (int column = 0; column < search.columns; column++) {
             unsigned least = pair ? 0u : 1u;
@@ -170,21 +170,21 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
     uint8_t *counts = paper->rows[0];
     rho_passive_paper_cross(&search, pair->a, pair->b);
     for (int row = 0; row < search.rows; row++) {
-        rho_passive_paper_count_row_votes_of_pair(&search, row, counts);
+        rho_passive_paper_count_row(&search, row, counts);
         for (int column = 0; column < search.columns; column++) {
             rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = counts[column],
                                                                      .theta_cell = (uint16_t)row,
                                                                      .rho_cell = (uint16_t)column});
         }
     }
-    rho_peak_list_drop_weak_and_sort(&list);
+    rho_peak_list_sort(&list);
     *num_peaks = rho_peak_list_suppress(peaks, list.num_peaks, &near, NULL, 0);
     for (uint32_t n = 0; n < *num_peaks; n++) {
         const struct rho_passive_paper_direction direction =
             rho_passive_paper_direction(&search, peaks[n].theta_cell);
         for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
             for (; i < paper->scan_end[scan]; i++) {
-                if (rho_passive_paper_column_of_point(&search, direction, &paper->points[i]) ==
+                if (rho_passive_paper_column(&search, direction, &paper->points[i]) ==
                     peaks[n].rho_cell) {
                     peaks[n].mask |= 1u << scan;
                 }

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "passive_paper_hough_search_state.h"
+#include "passive_paper_search.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
@@ -33,7 +33,7 @@ int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
                        config->range_max_m) != RHO_OK) {
         return 0; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
-    rho_ghost_prune_and_count_removed(matrix, config->rule);
+    rho_ghost_prune(matrix, config->rule);
     return 1;
 }
 
@@ -104,17 +104,17 @@ rho_passive_paper_direction(const struct rho_passive_paper_search *search, int r
  * Eq. (3) for a crossing with known position: multiplied out it is rho = x cos(theta) + y
  * sin(theta).
  */
-int rho_passive_paper_column_of_point(const struct rho_passive_paper_search *search,
-                                      struct rho_passive_paper_direction direction,
-                                      const struct rho_passive_paper_point *point)
+int rho_passive_paper_column(const struct rho_passive_paper_search *search,
+                             struct rho_passive_paper_direction direction,
+                             const struct rho_passive_paper_point *point)
 {
     float rho_m = point->x_m * direction.cosine + point->y_m * direction.sine;
     float cell = rho_m / search->paper->config.rho_cell_m + 0.5f * (float)search->columns;
     return cell >= 0.0f && cell < (float)search->columns ? (int)cell : -1;
 }
 
-void rho_passive_paper_count_row_votes_of_pair(const struct rho_passive_paper_search *search,
-                                               int row, uint8_t counts[RHO_PAPER_RHO_CELLS])
+void rho_passive_paper_count_row(const struct rho_passive_paper_search *search, int row,
+                                 uint8_t counts[RHO_PAPER_RHO_CELLS])
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
@@ -122,7 +122,7 @@ void rho_passive_paper_count_row_votes_of_pair(const struct rho_passive_paper_se
     memset(counts, 0, RHO_PAPER_RHO_CELLS);
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
         for (; i < paper->scan_end[scan]; i++) {
-            int column = rho_passive_paper_column_of_point(search, direction, &paper->points[i]);
+            int column = rho_passive_paper_column(search, direction, &paper->points[i]);
             if (column >= 0 && counts[column] < UINT8_MAX &&
                 (paper->config.votes == RHO_VOTES_POINTS || voted[column] != scan + 1u)) {
                 counts[column]++;
@@ -150,9 +150,8 @@ static unsigned max_votes_near(const uint8_t *const rows[3], int column, int col
  * Adds the votes of a pair of sensors to each cell of a row, plus 1 with the first pair; cells that
  * the pair does not confirm become 0, and stay 0.
  */
-static void add_pair_votes_and_clear_unconfirmed_cells(struct rho_passive_paper_search *search,
-                                                       int row, const uint8_t *const rows[3],
-                                                       int is_first)
+static void confirm_cells(struct rho_passive_paper_search *search, int row,
+                          const uint8_t *const rows[3], int is_first)
 {
     uint8_t *cells = search->paper->cells[row];
     for (int column = 0; column < search->columns; column++) {
@@ -166,20 +165,19 @@ static void add_pair_votes_and_clear_unconfirmed_cells(struct rho_passive_paper_
 }
 
 /* Adds the votes of the pair crossed last to the cells that it confirms, and clears the others. */
-static void add_votes_of_last_crossed_pair_to_cells(struct rho_passive_paper_search *search,
-                                                    int is_first)
+static void add_pair_votes(struct rho_passive_paper_search *search, int is_first)
 {
     uint8_t(*kept)[RHO_PAPER_RHO_CELLS] = search->paper->rows;
-    rho_passive_paper_count_row_votes_of_pair(search, -1, kept[0]);
-    rho_passive_paper_count_row_votes_of_pair(search, 0, kept[1]);
+    rho_passive_paper_count_row(search, -1, kept[0]);
+    rho_passive_paper_count_row(search, 0, kept[1]);
     for (int row = 0; row < search->rows; row++) {
         const uint8_t *const rows[3] = {kept[row % 3], kept[(row + 1) % 3], kept[(row + 2) % 3]};
-        rho_passive_paper_count_row_votes_of_pair(search, row + 1, kept[(row + 2) % 3]);
-        add_pair_votes_and_clear_unconfirmed_cells(search, row, rows, is_first);
+        rho_passive_paper_count_row(search, row + 1, kept[(row + 2) % 3]);
+        confirm_cells(search, row, rows, is_first);
     }
 }
 
-void rho_passive_paper_vote_with_all_sensor_pairs(struct rho_passive_paper_search *search)
+void rho_passive_paper_vote_pairs(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper_work *work = &search->paper->work;
     const struct rho_passive_paper_work *more = &search->per_pair;
@@ -192,7 +190,7 @@ void rho_passive_paper_vote_with_all_sensor_pairs(struct rho_passive_paper_searc
             work->points_dropped = rho_count(work->points_dropped, more->points_dropped);
             unsigned voters = more->crossings - more->ghosts - more->points_dropped;
             work->votes = rho_count(work->votes, voters * (unsigned)search->rows);
-            add_votes_of_last_crossed_pair_to_cells(search, is_first);
+            add_pair_votes(search, is_first);
             is_first = 0;
         }
     }

@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_PAPERS_POLICY_H
 #define RHOTRACK_PAPERS_POLICY_H
 
-/* accumulator_peak_search.c */
+/* accumulator_search.c */
 
 /*
  * Rows with at most this many points (rho cells / SPARSE_CELLS + SPARSE_POINTS) are cleared cell by
@@ -21,7 +21,7 @@
  */
 #define PRUNED_VOTES 3u
 
-/* accumulator_row_votes_and_peaks.c */
+/* accumulator_rows.c */
 
 /*
  * Blocks that are tested together where peaks are rare. Half or twice: more calls, or more blocks
@@ -34,7 +34,7 @@
  */
 #define CROWDED 4
 
-/* accumulator_branch_and_bound.c; all change the time of a search, none its peaks */
+/* accumulator_pruning.c; all change the time of a search, none its peaks */
 
 /* Rows of theta in the first interval. Half or twice: one more interval until the length fits. */
 #define ROWS_START 16u
@@ -71,7 +71,7 @@
 #define WORK_FIXED 50u
 #define WORK_POINT 2u
 
-/* passive_paper_line_choice_and_fit.c, passive_paper_view.c */
+/* passive_paper_lines.c, passive_paper_view.c */
 
 /*
  * Cells of theta and of rho on either side of a chosen line in which no other line is chosen: the
@@ -81,7 +81,7 @@
 #define LINE_NEAR_ROWS 4
 #define LINE_NEAR_COLUMNS 3
 
-/* velocity_hough_gate_of_track.c */
+/* velocity_gate.c */
 
 /*
  * Angles within this of the border of two cells get the lower cell, so that rounding does not

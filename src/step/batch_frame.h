@@ -12,7 +12,7 @@
 
 static inline int is_usable_bearing(const struct rho_bearing *bearing)
 {
-    return rho_measurement_is_valid_bearing(bearing) && bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
+    return rho_bearing_is_valid(bearing) && bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
            bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
 }
 

@@ -120,7 +120,7 @@ static int score_bearing(const struct rho_look *look, const struct rho_track *tr
     if (!rho_gate_test_bearing(&gate, &bearing, scan->x_m, scan->y_m, &result)) {
         return 0;
     }
-    *gain_nat = look->log_pd - 0.5f * (LOG_TWO_PI + result.log_det + result.distance2) -
+    *gain_nat = look->log_pd - 0.5f * (RHO_LOG_TWO_PI + result.log_det + result.distance2) -
                 look->log_false_bearings;
     return 1;
 }

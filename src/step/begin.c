@@ -55,8 +55,7 @@ static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
                         look->scan->sector_to_rad);
     }
     rho_look_open_noise(tracker, look);
-    look->log_range_rates -=
-        rho_measurement_log_num_aliases(look->sensor, tracker->config.v_max_mps);
+    look->log_range_rates -= rho_measurement_log_aliases(look->sensor, tracker->config.v_max_mps);
     look->range_rates_mps = rho_exp(look->log_range_rates);
 }
 

@@ -23,7 +23,7 @@
 static void widen_noise_and_time_bounds(struct rho_look *look, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
-    const float factor = rho_measurement_sigma_factor_at_least_one(look->sensor);
+    const float factor = rho_measurement_factor_max(look->sensor);
     look->sigma_max_m = rho_larger(look->sigma_max_m, factor * rho_plot_sigma_m(plot));
     look->offset_max_s = rho_larger(look->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
     if (look->scan->measures & RHO_MEASURES_Z) {
@@ -58,7 +58,7 @@ static int open_hough_gate_by_last_two_velocities(const struct rho_tracker *trac
 {
     const struct rho_tracker_config *config = &tracker->config;
     uint8_t planes = config->planes;
-    if (!rho_kalman_has_estimate_on_axis(&track->kalman, 2)) {
+    if (!rho_kalman_has_axis(&track->kalman, 2)) {
         planes = RHO_GATE_PLANE_XY;
     }
     return RHO_HAS_FILTER(RHO_TRACK_INPUT) && config->gate == RHO_TRACKER_HOUGH &&
@@ -102,8 +102,7 @@ static float gain_by_hough_residual(const struct rho_look *look, const struct rh
     velocity_implied_by_plot(look, track, plot, velocity_mps);
     return (track->status == RHO_TRACK_TENTATIVE ? HOUGH_TENTATIVE_NAT : HOUGH_CONFIRMED_NAT) *
            (HOUGH_GAIN_MAX -
-            rho_log(HOUGH_RESIDUAL_MIN_MPS +
-                    rho_gate_hough_velocity_distance_from_lines_mps(hough, velocity_mps)));
+            rho_log(HOUGH_RESIDUAL_MIN_MPS + rho_gate_hough_distance_mps(hough, velocity_mps)));
 }
 
 static int is_held_plot_in_box(const struct rho_look *look, const struct rho_gate *gate,

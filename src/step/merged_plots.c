@@ -113,10 +113,10 @@ static float predicted_range_rate_of_second_less_first_mps(const struct rho_look
     const int use_z = (look->scan->measures & RHO_MEASURES_Z) != 0;
     float row[6], first_mps, second_mps;
     if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_predict_range_rate(pair->first->kalman.state, look->sensor, use_z, row,
-                                            &first_mps) ||
-        !rho_measurement_predict_range_rate(pair->second->kalman.state, look->sensor, use_z, row,
-                                            &second_mps)) {
+        !rho_measurement_predict_rate(pair->first->kalman.state, look->sensor, use_z, row,
+                                      &first_mps) ||
+        !rho_measurement_predict_rate(pair->second->kalman.state, look->sensor, use_z, row,
+                                      &second_mps)) {
         return 0.0f;
     }
     return second_mps - first_mps;

@@ -180,7 +180,7 @@ static unsigned find_plots_of_line(struct rho_paper_starts *starts,
             .gate_radius_m = GATE_SIGMAS * (cell_m + scan->sigma_max_m),
             .skip_flags = RHO_WINDOW_INITIATED,
         };
-        const int nearest = rho_window_nearest_plot_in_sigmas_isotropic(scan, &query, &work);
+        const int nearest = rho_window_nearest_isotropic(scan, &query, &work);
         if (nearest >= 0) {
             candidate->plot[m] = (uint16_t)nearest;
             candidate->mask = (uint16_t)(candidate->mask | 1u << m);

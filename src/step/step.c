@@ -32,7 +32,7 @@ static enum rho_status check_scan(const struct rho_tracker *tracker,
     if (!RHO_SEARCHES && initiator) {
         return RHO_ERROR_CONFIG;
     }
-    if (!rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
+    if (!rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
         !rho_step_is_usable_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
@@ -87,7 +87,7 @@ static enum rho_status check_frame(const struct rho_tracker *tracker,
             return RHO_ERROR_NULL;
         }
         if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
-            !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
+            !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
             !rho_step_is_usable_time(scan->time_us) ||
             scan->time_us - frame->time_us > RHO_LIMIT_OFFSET_US ||
             scan->time_us - frame->time_us < -RHO_LIMIT_OFFSET_US) {

@@ -120,7 +120,7 @@ static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_
             plots[i].time_us - tracker->time_us > RHO_LIMIT_OFFSET_US || plots[i].row < -1 ||
             plots[i].row >= (int32_t)report->num_plots ||
             !rho_measurement_is_valid_plot(&plots[i].plot, plots[i].measures) ||
-            (plots[i].sensor && !rho_measurement_has_valid_place_and_biases(plots[i].sensor))) {
+            (plots[i].sensor && !rho_measurement_is_valid_site(plots[i].sensor))) {
             return 0;
         }
     }
@@ -230,17 +230,16 @@ static int is_usable_estimate(const struct rho_kalman *estimate)
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)], factor[RHO_TRIANGLE(RHO_KALMAN_STATES)];
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         const float limit = i < 3 ? RHO_LIMIT_POSITION_M : RHO_LIMIT_SPEED_MPS;
-        const int is_open = rho_kalman_has_estimate_on_axis(estimate, i % 3);
+        const int is_open = rho_kalman_has_axis(estimate, i % 3);
         const float variance = estimate->covariance[RHO_AT(i, i)];
         if (!rho_is_within(estimate->state[i], -limit, limit) ||
-            !rho_is_within(variance, is_open ? RHO_KALMAN_VARIANCE_MIN : 0.0f,
-                           is_open ? RHO_KALMAN_VARIANCE_MAX : 0.0f)) {
+            !rho_is_within(variance, is_open ? RHO_VARIANCE_MIN : 0.0f,
+                           is_open ? RHO_VARIANCE_MAX : 0.0f)) {
             return 0;
         }
         for (int j = 0; j < i; j++) {
             const float element = estimate->covariance[RHO_AT(i, j)];
-            const float most =
-                is_open && rho_kalman_has_estimate_on_axis(estimate, j % 3) ? FLT_MAX : 0.0f;
+            const float most = is_open && rho_kalman_has_axis(estimate, j % 3) ? FLT_MAX : 0.0f;
             if (!rho_is_within(element, -most, most)) {
                 return 0;
             }

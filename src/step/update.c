@@ -102,7 +102,7 @@ static void update_hypotheses_of_track(struct rho_tracker *tracker, const struct
         rho_work_release_share(work);
     }
     /* cannot fail: the track has hypotheses */
-    (void)!rho_track_commit_hypotheses_to_scan(track, &scan, look->scan->sensor_id, &look->model);
+    (void)!rho_track_commit_scan(track, &scan, look->scan->sensor_id, &look->model);
     refused = tracker->hypotheses.updates_refused - refused;
     tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
     if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * clutter: how dense is clutter here? Contributors, in their order: the background, of the scan or of
- * a later part of it (expected_clutter.c); echoes and strobes that come back (echo_clutter.c), to
- * which second plots of targets are added once plots are claimed (second_plots.c).
+ * clutter: how dense is clutter here? Contributors, in their order: the background, of the scan or
+ * of a later part of it (expected_clutter.c); echoes and strobes that come back (echo_clutter.c),
+ * to which second plots of targets are added once plots are claimed (second_plots.c).
  */
 #include "clutter.h"
 

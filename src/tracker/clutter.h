@@ -62,14 +62,14 @@ void rho_echoes_sum_returns(const struct rho_look *look, const struct rho_candid
 int rho_echoes_is_moving_target(const struct rho_track *track);
 
 /*
- * second_plots_and_duplicate_tracks.c (RHO_MAX_ECHOES): near claimed plots, before tracks age,
- * learns how often second plots of a target come, raises the clutter density there, and ends the
- * younger of two tracks of one target
+ * second_plots.c (RHO_MAX_ECHOES): near claimed plots, before tracks age, learns how often second
+ * plots of a target come, raises the clutter density there, and ends the younger of two tracks of
+ * one target
  */
 struct step;
 void rho_second_plots_take_look(struct step *step);
 int rho_second_plots_are_sound(const struct rho_second_plots *table);
-int rho_second_plots_is_sound_track(const struct rho_track *track);
+int rho_second_is_sound_track(const struct rho_track *track);
 /*
  * After a start: raises the clutter density at the window's plots near the candidate's plots, as
  * they may be second plots of the same target.

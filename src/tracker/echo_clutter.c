@@ -17,58 +17,13 @@
 
 #include "clutter.h"
 #include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/recurring_clutter_map_operations.h"
-#include "sensors.h"
-#include "step.h"
 
-/* Fewest hits of a track that is taken to be of a target; it must also move as targets do. */
-#define TARGET_HITS 12
-/*
- * A track has moved when its distance from where it started exceeds this many standard deviations
- * of both places. Five would be too few where one of its first plots was clutter.
- */
-#define MOVED_SIGMAS 8.0f
-/* Gate of an echo: limit of the NIS of a plot, and its root. e^-(limit / 2) is cut off. */
-#define GATE_CHI2 18.0f
-#define GATE_SIGMAS 4.2426407f
-/* Longest silence of a sensor that still counts as scanning. */
-#define SILENT_S 60.0f
-/*
- * Largest variance of an echo's predicted place, as a share of the squared maximum range of its
- * sensor; an echo with a larger one is dropped.
- */
-#define UNKNOWN_SHARE 0.01f
-/* Least share of the clutter density at a plot that an echo must explain to be updated with it. */
-#define WEIGHT_MIN 0.3f
-/*
- * Range rates of an echo's plots: a learned share is exactly that of the echo's own speed; its
- * prior, and the weight of the prior in plots. Of the rest half are near it (RATE_SIGMA_MPS), and
- * half are any (blades, trees, water). The learned sums are halved at RATE_PLOTS_REMEMBERED.
- */
-#define EXACT_PRIOR 0.3f
-#define EXACT_PRIOR_PLOTS 10.0f
-#define RATE_SIGMA_MPS 1.0f
-#define RATE_SHARE 0.5f
-#define RATE_PLOTS_REMEMBERED 1000.0f
-/*
- * A jammer's strobe: three neighbouring directions with at least STROBE_PLOTS_MIN plots more than
- * STROBE_TIMES_USUAL times the mean of other directions, in STROBE_RANGES_MIN eighths of the range.
- */
-#define STROBE_PLOTS_MIN 8.0f
-#define STROBE_TIMES_USUAL 6.0f
-#define STROBE_RANGES 8.0f
-#define STROBE_RANGES_LAST 7u
-#define STROBE_RANGES_MIN 6u
-/* Units of work for an echo and a plot near it, and for their range rates. */
-#define ECHO_UNITS 4u
-#define RATE_UNITS 6u
-
-/* ---- look ------------------------------------------------------------------------------------ */
-
-static float range_max_of_sensor(const struct rho_look *look)
+static float sensor_range_max(const struct rho_look *look)
 {
     if (look->sensor) {
         return look->sensor->range_max_m;
@@ -79,16 +34,8 @@ static float range_max_of_sensor(const struct rho_look *look)
     return 0.5f * rho_sqrt(width_m * width_m + height_m * height_m);
 }
 
-/*
- * Likelihood ratios of a plot's range rate, from the echo against clutter that is spread over all
- * rates. exact: the rate is that of the echo's own speed, as of a mast; other: it is not.
- */
-struct exact_and_other_range_rate_ratios {
-    float exact, other;
-};
-
 /* Normal density of a range rate's deviation, over the density of clutter uniform in all rates. */
-static float normal_over_uniform_rate(const struct rho_look *look, float off_mps, float variance)
+static float normal_over_uniform(const struct rho_look *look, float off_mps, float variance)
 {
     const float share = rho_exp(-0.5f * off_mps * off_mps / variance);
     return share > 0.0f ? look->range_rates_mps * (share * rho_inverse_sqrt(RHO_TWO_PI * variance))
@@ -97,96 +44,47 @@ static float normal_over_uniform_rate(const struct rho_look *look, float off_mps
 
 float rho_echoes_rate_ratio(const struct rho_look *look, float off_mps, float variance)
 {
-    return 1.0f - RATE_SHARE +
-           RATE_SHARE *
-               normal_over_uniform_rate(look, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
+    return 0.5f + 0.5f * normal_over_uniform(look, off_mps,
+                                             variance + ECHO_RATE_SIGMA_MPS * ECHO_RATE_SIGMA_MPS);
 }
 
-static struct exact_and_other_range_rate_ratios
-exact_and_other_range_rate_ratios(const struct rho_look *look, const struct rho_echo *echo,
-                                  const struct echo_view *view, const struct rho_plot *plot)
+/*
+ * Likelihood ratios of a plot's range rate, from the echo against clutter that is spread over all
+ * rates. exact: the rate is that of the echo's own speed, as of a mast; other: it is not (blades,
+ * trees, water). share: learned share of echoes' plots with the exact rate.
+ */
+struct rate_ratios {
+    float exact, other, share;
+};
+
+static struct rate_ratios echo_rate_ratios(const struct rho_look *look, const struct rho_echo *echo,
+                                           const struct echo_view *view,
+                                           const struct rho_plot *plot)
 {
+    const struct rho_clutter_map *map = &look->tracker->clutter_map;
     const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
-    return (struct exact_and_other_range_rate_ratios){
-        normal_over_uniform_rate(look, off_mps, variance),
-        rho_echoes_rate_ratio(look, off_mps, variance)};
+    return (struct rate_ratios){normal_over_uniform(look, off_mps, variance),
+                                rho_echoes_rate_ratio(look, off_mps, variance),
+                                (map->exact_plots + ECHO_EXACT_PRIOR * RATE_PRIOR_LOOKS) /
+                                    (map->rate_plots + RATE_PRIOR_LOOKS)};
 }
 
-/* Learned share of echoes' plots that have exactly the range rate of the echo's own speed. */
-static float share_of_exact_rates(const struct rho_clutter_map *map)
-{
-    return (map->exact_plots + EXACT_PRIOR * EXACT_PRIOR_PLOTS) /
-           (map->rate_plots + EXACT_PRIOR_PLOTS);
-}
-
-/* Likelihood ratio of a plot's range rate, echo against clutter of any rate; 1: not measured. */
-static float echo_rate_likelihood_ratio(const struct rho_look *look, const struct rho_echo *echo,
-                                        const struct echo_view *view, const struct rho_plot *plot)
-{
-    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
-        return 1.0f;
-    }
-    const struct exact_and_other_range_rate_ratios ratios =
-        exact_and_other_range_rate_ratios(look, echo, view, plot);
-    const float share = share_of_exact_rates(&look->tracker->clutter_map);
-    return share * ratios.exact + (1.0f - share) * ratios.other;
-}
-
-/* Learns from an echo's plot how often range rates are exactly those of the echo's own speed. */
-static void learn_exact_rate_share(struct rho_tracker *tracker, const struct rho_look *look,
-                                   const struct rho_echo *echo, const struct rho_plot *plot)
+/* Adds, at the plots near an echo, the density of its next plot by its probability to return. */
+static void add_echo_density(struct rho_tracker *tracker, const struct rho_look *look,
+                             struct rho_work *work, unsigned place)
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
-    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
-        return;
-    }
-    const struct echo_view view =
-        rho_clutter_map_view_from_sensor(look->sensor, echo->x_m, echo->y_m);
-    const struct exact_and_other_range_rate_ratios ratios =
-        exact_and_other_range_rate_ratios(look, echo, &view, plot);
-    const float share = share_of_exact_rates(map);
-    const float exact = share * ratios.exact;
-    if (map->rate_plots >= RATE_PLOTS_REMEMBERED) {
-        map->rate_plots *= 0.5f;
-        map->exact_plots *= 0.5f;
-    }
-    map->rate_plots += 1.0f;
-    map->exact_plots += exact / (exact + (1.0f - share) * ratios.other);
-}
-
-/* Density, at a given plot, of an echo's next plot if the echo returns; 0 outside of its gate. */
-static float echo_density_at(const struct rho_look *look, const struct rho_echo *echo,
-                             const struct echo_view *view, const struct rho_plot *plot)
-{
-    const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
-    const float along_m = dx_m * view->along_x + dy_m * view->along_y;
-    const float across_m = dy_m * view->along_x - dx_m * view->along_y;
-    const float along_m2 = echo->along[0] + plot->sigma_range_m * plot->sigma_range_m;
-    const float across_m2 = echo->across[0] + plot->sigma_cross_m * plot->sigma_cross_m;
-    const float chi2 = along_m * along_m / along_m2 + across_m * across_m / across_m2;
-    if (!(chi2 < GATE_CHI2)) {
-        return 0.0f;
-    }
-    return rho_exp(-0.5f * chi2) * rho_inverse_sqrt(along_m2 * across_m2) / RHO_TWO_PI *
-           echo_rate_likelihood_ratio(look, echo, view, plot);
-}
-
-static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct rho_look *look,
-                                      struct rho_work *work, unsigned place)
-{
-    struct rho_clutter_map *map = &tracker->clutter_map;
-    struct rho_echo *echo = &map->echoes[place];
+    const struct rho_echo *echo = &map->echoes[place];
+    const int has_rates = (look->scan->measures & RHO_MEASURES_RANGE_RATE) != 0;
     struct echo_view view = {0.0f, 0.0f, 0.0f};
     float probability = -1.0f; /* of the echo's return; < 0: no plot near the echo yet */
     const float sigma_m = look->sigma_max_m;
-    const float half_m =
-        GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
+    const float half_m = 4.2426407f * /* the root of ECHO_CHI2 */
+                         rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
     struct plots_near near = rho_plots_near(tracker, echo->x_m - half_m, echo->x_m + half_m,
                                             echo->y_m - half_m, echo->y_m + half_m);
-    const uint32_t units =
-        ECHO_UNITS + (look->scan->measures & RHO_MEASURES_RANGE_RATE ? RATE_UNITS : 0u);
     uint32_t passed = 0;
     for (uint32_t i; rho_plots_next(look, &near, &i); passed++) {
         const struct rho_plot *plot = &look->scan->plots[i];
@@ -196,12 +94,27 @@ static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct 
             continue;
         }
         if (probability < 0.0f) {
-            view = rho_clutter_map_view_from_sensor(look->sensor, echo->x_m, echo->y_m);
+            view = rho_clutter_map_view(look->sensor, echo->x_m, echo->y_m);
             probability =
                 rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
         }
-        rho_work_spend(work, units);
-        const float density = probability * echo_density_at(look, echo, &view, plot);
+        rho_work_spend(work, ECHO_UNITS + (has_rates ? ECHO_RATE_UNITS : 0u));
+        const float along_m = dx_m * view.along_x + dy_m * view.along_y;
+        const float across_m = dy_m * view.along_x - dx_m * view.along_y;
+        const float along_m2 = echo->along[0] + plot->sigma_range_m * plot->sigma_range_m;
+        const float across_m2 = echo->across[0] + plot->sigma_cross_m * plot->sigma_cross_m;
+        const float chi2 = along_m * along_m / along_m2 + across_m * across_m / across_m2;
+        if (!(chi2 < ECHO_CHI2)) {
+            continue;
+        }
+        float rate_ratio = 1.0f; /* echo against clutter of any range rate */
+        if (has_rates) {
+            const struct rate_ratios ratios = echo_rate_ratios(look, echo, &view, plot);
+            rate_ratio = ratios.share * ratios.exact + (1.0f - ratios.share) * ratios.other;
+        }
+        const float density =
+            probability * (rho_exp(-0.5f * chi2) * rho_inverse_sqrt(along_m2 * across_m2) /
+                           RHO_TWO_PI * rate_ratio);
         if (!(density > 0.0f)) {
             continue;
         }
@@ -214,128 +127,33 @@ static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct 
     rho_work_spend(work, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
-/* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
-static int clear_echo_results_and_test_coverage(const struct rho_look *look, struct rho_echo *echo)
-{
-    const struct rho_scan *scan = look->scan;
-    echo->was_looked_at = 0;
-    echo->plot = -1;
-    echo->weight = 0.0f;
-    return echo->hits > 0 && echo->sensor_id == scan->sensor_id &&
-           rho_measurement_covers(look->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                  echo->x_m, echo->y_m);
-}
-
-/* Predicts the echo to the scan's time. Returns 0 where it is lost: its place becomes free. */
-static int predict_echo_or_drop_if_lost(const struct rho_look *look, struct rho_echo *echo,
-                                        float range_max_m)
-{
-    echo->was_looked_at = 1;
-    echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
-    if (rho_clutter_map_is_echo_lost(echo)) {
-        echo->hits = 0;
-        return 0;
-    }
-    if (echo->region == UINT8_MAX || echo->unseen == 1) {
-        echo->region =
-            rho_clutter_map_region_of_place(look->sensor, range_max_m, echo->x_m, echo->y_m);
-    }
-    rho_clutter_map_predict_echo(echo, look->time_us);
-    if (!(echo->along[0] + echo->across[0] < UNKNOWN_SHARE * range_max_m * range_max_m)) {
-        echo->hits = 0; /* the echo's place is unknown after a long silence of the sensor */
-        return 0;
-    }
-    return 1;
-}
-
-/*
- * Predicts the echoes that the scan covers, and adds their densities at plots. The next scan begins
- * with the echoes that were left out because the share of work was used up.
- */
-static void predict_echoes_and_add_densities(struct rho_tracker *tracker,
-                                             const struct rho_look *look, struct rho_work *work,
-                                             float range_max_m)
-{
-    struct rho_clutter_map *map = &tracker->clutter_map;
-    unsigned place = map->first_echo, left_out = 0;
-    rho_work_begin_phase(tracker, work, RHO_WORK_ECHOES_SHARE);
-    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
-        if (!clear_echo_results_and_test_coverage(look, &map->echoes[place])) {
-            continue;
-        }
-        if (rho_work_is_spent(work)) {
-            map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
-            left_out++;
-        } else if (predict_echo_or_drop_if_lost(look, &map->echoes[place], range_max_m)) {
-            add_echo_density_at_plots(tracker, look, work, place);
-        }
-    }
-    work->is_partial |= left_out > 0;
-    work->plots_not_tried = rho_count(work->plots_not_tried, left_out);
-}
-
-/* ---- strobes --------------------------------------------------------------------------------- */
-
 /* Bin of azimuth, of RHO_ECHO_STROBES, and range of a valid plot, as the sensor sees it. */
 struct direction {
     unsigned bin;
     float range_m;
 };
 
-static struct direction azimuth_bin_and_range_of_plot(const struct rho_look *look, uint32_t row)
+static struct direction plot_direction(const struct rho_look *look, uint32_t row)
 {
     const struct rho_plot *plot = &look->scan->plots[row];
-    const struct echo_view view =
-        rho_clutter_map_view_from_sensor(look->sensor, plot->x_m, plot->y_m);
-    const unsigned bin =
-        (unsigned)(rho_clutter_map_azimuth_in_turns(&view) * (float)RHO_ECHO_STROBES);
+    const struct echo_view view = rho_clutter_map_view(look->sensor, plot->x_m, plot->y_m);
+    const unsigned bin = (unsigned)(rho_clutter_map_azimuth_turns(&view) * (float)RHO_ECHO_STROBES);
     return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
 }
 
-/* Index 0 .. 7 of the eighth of the sensor's maximum range that a range lies in. */
-static unsigned eighth_of_range(float range_m, float range_max_m)
+/* Index of the part, of STROBE_RANGES, of the sensor's maximum range that a range lies in. */
+static unsigned range_part(float range_m, float range_max_m)
 {
-    const float eighth = STROBE_RANGES * range_m / range_max_m;
-    return eighth < STROBE_RANGES ? (unsigned)eighth : STROBE_RANGES_LAST;
-}
-
-/* Counts held plots by direction, and marks the ranges that have any. Returns their number. */
-static float count_plots_by_direction_and_in_all(struct rho_tracker *tracker,
-                                                 const struct rho_look *look, float range_max_m)
-{
-    struct rho_clutter_map *map = &tracker->clutter_map;
-    float plots = 0.0f;
-    memset(map->strobe_count, 0, sizeof map->strobe_count);
-    memset(map->strobe_ranges, 0, sizeof map->strobe_ranges);
-    for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] != RHO_FATE_HELD) {
-            continue;
-        }
-        const struct direction at = azimuth_bin_and_range_of_plot(look, i);
-        map->strobe_count[at.bin]++;
-        map->strobe_ranges[at.bin] |= (uint8_t)(1u << eighth_of_range(at.range_m, range_max_m));
-        plots += 1.0f;
-    }
-    return plots;
-}
-
-/* Width of the scan's sector, or of the sensor's stated sector where that is narrower, radians. */
-static float covered_sector_width(const struct rho_look *look)
-{
-    const float scan_rad =
-        rho_angle_sector_width(look->scan->sector_from_rad, look->scan->sector_to_rad);
-    const float sensor_rad = look->sensor ? rho_angle_sector_width(look->sensor->sector_from_rad,
-                                                                   look->sensor->sector_to_rad)
-                                          : scan_rad;
-    return sensor_rad < scan_rad ? sensor_rad : scan_rad;
+    const float part = (float)STROBE_RANGES * range_m / range_max_m;
+    return part < (float)STROBE_RANGES ? (unsigned)part : STROBE_RANGES - 1u;
 }
 
 /*
  * Plots per radian and metre of range that a strobe in this direction and the two beside it adds; 0
  * where there is no strobe.
  */
-static float jammer_strobe_excess_density_or_zero(const struct rho_look *look, unsigned bin,
-                                                  float plots, float range_max_m)
+static float strobe_density(const struct rho_look *look, unsigned bin, float plots,
+                            float range_max_m)
 {
     const struct rho_clutter_map *map = &look->tracker->clutter_map;
     const unsigned bins[3] = {bin == 0 ? RHO_ECHO_STROBES - 1u : bin - 1u, bin,
@@ -348,30 +166,19 @@ static float jammer_strobe_excess_density_or_zero(const struct rho_look *look, u
     if (!((float)count > STROBE_PLOTS_MIN)) {
         return 0.0f; /* most directions have too few plots for a strobe */
     }
+    /* of the scan's sector, or of the sensor's stated sector where that is narrower */
+    const float scan_rad =
+        rho_angle_sector_width(look->scan->sector_from_rad, look->scan->sector_to_rad);
+    const float sensor_rad = look->sensor ? rho_angle_sector_width(look->sensor->sector_from_rad,
+                                                                   look->sensor->sector_to_rad)
+                                          : scan_rad;
     const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_ECHO_STROBES;
-    const float others_rad = covered_sector_width(look) - width_rad;
+    const float others_rad = (sensor_rad < scan_rad ? sensor_rad : scan_rad) - width_rad;
     const float usual = others_rad > 0.0f ? (plots - (float)count) * width_rad / others_rad : plots;
     return (float)count > STROBE_PLOTS_MIN + STROBE_TIMES_USUAL * usual &&
                    rho_count_bits(ranges) >= STROBE_RANGES_MIN
                ? ((float)count - usual) / (width_rad * range_max_m)
                : 0.0f;
-}
-
-/* True where the scan has enough plots for a strobe, in enough eighths of the range. */
-static int may_have_strobes(const struct rho_look *look, float range_max_m)
-{
-    float plots = 0.0f;
-    unsigned ranges = 0;
-    for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] == RHO_FATE_HELD) {
-            const struct rho_plot *plot = &look->scan->plots[i];
-            const struct echo_view view =
-                rho_clutter_map_view_from_sensor(look->sensor, plot->x_m, plot->y_m);
-            ranges |= 1u << eighth_of_range(view.range_m, range_max_m);
-            plots += 1.0f;
-        }
-    }
-    return plots > STROBE_PLOTS_MIN && rho_count_bits(ranges) >= STROBE_RANGES_MIN;
 }
 
 /*
@@ -382,18 +189,36 @@ static void add_strobe_densities(struct rho_tracker *tracker, const struct rho_l
                                  float range_max_m)
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
-    if (!may_have_strobes(look, range_max_m)) {
-        return;
+    float plots = 0.0f;
+    unsigned ranges = 0;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &look->scan->plots[i];
+            const struct echo_view view = rho_clutter_map_view(look->sensor, plot->x_m, plot->y_m);
+            ranges |= 1u << range_part(view.range_m, range_max_m);
+            plots += 1.0f;
+        }
     }
-    const float plots = count_plots_by_direction_and_in_all(tracker, look, range_max_m);
+    if (!(plots > STROBE_PLOTS_MIN) || rho_count_bits(ranges) < STROBE_RANGES_MIN) {
+        return; /* most scans: no direction needs to be computed */
+    }
+    memset(map->strobe_count, 0, sizeof map->strobe_count);
+    memset(map->strobe_ranges, 0, sizeof map->strobe_ranges);
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            const struct direction at = plot_direction(look, i);
+            map->strobe_count[at.bin]++;
+            map->strobe_ranges[at.bin] |= (uint8_t)(1u << range_part(at.range_m, range_max_m));
+        }
+    }
     for (uint32_t i = 0; i < look->num_gated; i++) {
         if (look->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        const struct direction at = azimuth_bin_and_range_of_plot(look, i);
+        const struct direction at = plot_direction(look, i);
         float density = 0.0f;
         for (unsigned k = 0; k < 3; k++) { /* a plot at a strobe's edge may be one bin beside it */
-            const float beside = jammer_strobe_excess_density_or_zero(
+            const float beside = strobe_density(
                 look, (at.bin + RHO_ECHO_STROBES + k - 1u) % RHO_ECHO_STROBES, plots, range_max_m);
             density = beside > density ? beside : density;
         }
@@ -403,22 +228,62 @@ static void add_strobe_densities(struct rho_tracker *tracker, const struct rho_l
     }
 }
 
-/* ---- clutter at each plot -------------------------------------------------------------------- */
-
-/*
- * Gives each echo the plot of which it explains the largest share, and turns the density of echoes
- * and strobes at each plot into ln of how much denser than the background clutter is there.
- */
-static void match_echoes_and_take_log_ratios(struct rho_tracker *tracker,
-                                             const struct rho_look *look)
+void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look,
+                        struct rho_work *work)
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
+    const struct rho_scan *scan = look->scan;
+    map->is_looked = look->teaches ? 1 : 0;
+    if (!look->teaches) {
+        return;
+    }
+    map->time_us = look->time_us;
+    memset(map->denser, 0, look->num_gated * sizeof map->denser[0]);
+    memset(map->best_per_m2, 0, look->num_gated * sizeof map->best_per_m2[0]);
+    const float range_max_m = sensor_range_max(look);
+    unsigned place = map->first_echo, left_out = 0;
+    rho_work_begin_phase(tracker, work, RHO_WORK_ECHOES_SHARE);
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
+        struct rho_echo *echo = &map->echoes[place];
+        echo->was_looked_at = 0;
+        echo->plot = -1;
+        echo->weight = 0.0f;
+        if (echo->hits == 0 || echo->sensor_id != scan->sensor_id ||
+            !rho_measurement_covers(look->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                    echo->x_m, echo->y_m)) {
+            continue;
+        }
+        if (rho_work_is_spent(work)) { /* the next scan begins with the first one left out */
+            map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
+            left_out++;
+            continue;
+        }
+        echo->was_looked_at = 1;
+        echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
+        if (rho_clutter_map_is_echo_lost(echo)) {
+            echo->hits = 0;
+            continue;
+        }
+        if (echo->region == UINT8_MAX || echo->unseen == 1) {
+            echo->region =
+                rho_clutter_map_region_at(look->sensor, range_max_m, echo->x_m, echo->y_m);
+        }
+        rho_clutter_map_predict_echo(echo, look->time_us);
+        if (!(echo->along[0] + echo->across[0] < ECHO_UNKNOWN_SHARE * range_max_m * range_max_m)) {
+            echo->hits = 0; /* the echo's place is unknown after a long silence of the sensor */
+            continue;
+        }
+        add_echo_density(tracker, look, work, place);
+    }
+    work->is_partial |= left_out > 0;
+    work->plots_not_tried = rho_count(work->plots_not_tried, left_out);
+    add_strobe_densities(tracker, look, range_max_m);
+    /* each echo gets the plot of which it explains the largest share; densities become ln ratios */
     for (uint32_t i = 0; i < look->num_gated; i++) {
         if (!(map->denser[i] > 0.0f)) {
             continue;
         }
-        const struct rho_plot *plot = &look->scan->plots[i];
-        const float density = rho_clutter_background_at(look, plot);
+        const float density = rho_clutter_background_at(look, &scan->plots[i]);
         if (map->best_per_m2[i] > 0.0f) {
             struct rho_echo *echo = &map->echoes[map->best_echo[i]];
             const float weight = map->best_per_m2[i] / (density + map->denser[i]);
@@ -431,30 +296,11 @@ static void match_echoes_and_take_log_ratios(struct rho_tracker *tracker,
     }
 }
 
-void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look,
-                        struct rho_work *work)
-{
-    struct rho_clutter_map *map = &tracker->clutter_map;
-    map->is_looked = look->teaches ? 1 : 0;
-    if (!look->teaches) {
-        return;
-    }
-    map->time_us = look->time_us;
-    memset(map->denser, 0, look->num_gated * sizeof map->denser[0]);
-    memset(map->best_per_m2, 0, look->num_gated * sizeof map->best_per_m2[0]);
-    const float range_max_m = range_max_of_sensor(look);
-    predict_echoes_and_add_densities(tracker, look, work, range_max_m);
-    add_strobe_densities(tracker, look, range_max_m);
-    match_echoes_and_take_log_ratios(tracker, look);
-}
-
 float rho_echoes_log_ratio_at(const struct rho_look *look, uint32_t row)
 {
     const struct rho_clutter_map *map = &look->tracker->clutter_map;
     return map->is_looked && look->first_row == 0 ? map->denser[row] : 0.0f;
 }
-
-/* ---- keep ------------------------------------------------------------------------------------ */
 
 void rho_echoes_store_ratios(const struct rho_look *look)
 {
@@ -470,8 +316,6 @@ void rho_echoes_store_ratios(const struct rho_look *look)
         scan->repeats[i] = (uint8_t)(repeats < 255.0f ? repeats : 255.0f);
     }
 }
-
-/* ---- plots of targets ------------------------------------------------------------------------ */
 
 void rho_echoes_sum_returns(const struct rho_look *look, const struct rho_candidate *candidate,
                             struct rho_track *track)
@@ -499,12 +343,9 @@ void rho_echoes_store_start(struct rho_track *track)
     track->start_sigma_m = rho_track_sigma_m(track);
 }
 
-static int has_left_its_start(const struct rho_track *track)
+static int is_in_set(const uint32_t *set, uint32_t row)
 {
-    const float dx_m = track->kalman.state[0] - track->start_m[0];
-    const float dy_m = track->kalman.state[1] - track->start_m[1];
-    const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
-    return dx_m * dx_m + dy_m * dy_m > far_m * far_m;
+    return (set[row / 32] >> row % 32 & 1u) != 0;
 }
 
 /*
@@ -513,75 +354,16 @@ static int has_left_its_start(const struct rho_track *track)
  */
 static int moves_as_target(const struct rho_tracker *tracker, struct rho_track *track)
 {
-    const float *velocity_mps = &track->kalman.state[3];
+    const float *state = track->kalman.state;
     const float v_min_mps = tracker->config.v_min_mps;
-    if (!track->was_confirmed || track->hits < TARGET_HITS) {
+    if (!track->was_confirmed || track->hits < TARGET_TRACK_HITS) {
         return 0;
     }
-    track->has_moved = track->has_moved || has_left_its_start(track);
-    return v_min_mps > 0.0f
-               ? velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] >=
-                     v_min_mps * v_min_mps
-               : track->has_moved != 0;
-}
-
-static void subtract_track_returns_from_map_counts(struct rho_tracker *tracker,
-                                                   const struct rho_look *look,
-                                                   struct rho_track *track)
-{
-    if (track->has_taken_back) {
-        return;
-    }
-    rho_clutter_map_remove_returns(
-        &tracker->clutter_map,
-        rho_clutter_map_region_of_place(look->sensor, range_max_of_sensor(look),
-                                        track->kalman.state[0], track->kalman.state[1]),
-        track->returns);
-    track->has_taken_back = 1;
-}
-
-/* ---- learn ----------------------------------------------------------------------------------- */
-
-static int is_row_in_set(const uint32_t *set, uint32_t row)
-{
-    return (set[row / 32] >> row % 32 & 1u) != 0;
-}
-
-/* Adds to a track's sum of returns the probability that its plot is the return of an echo. */
-static void add_echo_return_to_track(const struct rho_clutter_map *map, struct rho_track *track)
-{
-    if (map->best_per_m2[track->plot] > 0.0f) {
-        const struct rho_echo *echo = &map->echoes[map->best_echo[track->plot]];
-        if (echo->plot == track->plot && echo->unseen == 1) {
-            track->returns[rho_clutter_map_hit_class(echo->hits)] += echo->weight;
-        }
-    }
-}
-
-/*
- * Sets the bits of plots of targets. The returns of such a track are removed from the map once;
- * other tracks fade theirs as the map does, and add the newest.
- */
-static void fade_track_returns_and_mark_target_plots(struct rho_tracker *tracker,
-                                                     const struct rho_look *look, uint32_t *targets,
-                                                     float turn_share)
-{
-    for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        struct rho_track *track = &tracker->tracks[i];
-        for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
-            track->returns[c] *=
-                rho_clutter_map_decay_factor(turn_share); /* as the map's sums fade with time */
-        }
-        if (track->plot < 0 || (uint32_t)track->plot >= look->num_gated) {
-            continue;
-        }
-        if (moves_as_target(tracker, track)) {
-            subtract_track_returns_from_map_counts(tracker, look, track);
-            targets[track->plot / 32] |= 1u << track->plot % 32;
-        } else {
-            add_echo_return_to_track(&tracker->clutter_map, track);
-        }
-    }
+    const float dx_m = state[0] - track->start_m[0], dy_m = state[1] - track->start_m[1];
+    const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
+    track->has_moved = track->has_moved || dx_m * dx_m + dy_m * dy_m > far_m * far_m;
+    return v_min_mps > 0.0f ? state[3] * state[3] + state[4] * state[4] >= v_min_mps * v_min_mps
+                            : track->has_moved != 0;
 }
 
 /*
@@ -589,60 +371,106 @@ static void fade_track_returns_and_mark_target_plots(struct rho_tracker *tracker
  * targets may stand still, no echo is updated with a plot of a target. An echo faster than v_min is
  * dropped.
  */
-static void update_map_echoes_and_mark_taken_plots(struct rho_tracker *tracker,
-                                                   const struct rho_look *look,
-                                                   const uint32_t *targets, uint32_t *taken)
+static void update_echoes(struct rho_tracker *tracker, const struct rho_look *look,
+                          const uint32_t *targets, uint32_t *taken)
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
     const float v_min2 = map->v_min_mps * map->v_min_mps;
     for (unsigned place = 0; place < RHO_ECHO_PLACES; place++) {
         struct rho_echo *echo = &map->echoes[place];
         const int is_seen = echo->hits > 0 && echo->was_looked_at && echo->plot >= 0;
-        const int by_target = is_seen && is_row_in_set(targets, (uint32_t)echo->plot);
+        const int by_target = is_seen && is_in_set(targets, (uint32_t)echo->plot);
         if (echo->hits > 0 && echo->was_looked_at && !echo->is_target) {
             rho_clutter_map_count_look(map, echo);
             if (is_seen && !by_target) {
                 rho_clutter_map_count_return(map, echo);
             }
         }
-        if (is_seen && echo->weight > WEIGHT_MIN && !(by_target && !(v_min2 > 0.0f))) {
-            if (!by_target && !echo->is_target) {
-                learn_exact_rate_share(tracker, look, echo, &look->scan->plots[echo->plot]);
+        if (!is_seen || !(echo->weight > ECHO_WEIGHT_MIN) || (by_target && !(v_min2 > 0.0f))) {
+            continue;
+        }
+        const struct rho_plot *plot = &look->scan->plots[echo->plot];
+        if (!by_target && !echo->is_target && (look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+            /* learns how often range rates are exactly those of the echo's own speed */
+            const struct echo_view view = rho_clutter_map_view(look->sensor, echo->x_m, echo->y_m);
+            const struct rate_ratios ratios = echo_rate_ratios(look, echo, &view, plot);
+            const float exact = ratios.share * ratios.exact;
+            if (map->rate_plots >= LOOKS_REMEMBERED) {
+                map->rate_plots *= 0.5f;
+                map->exact_plots *= 0.5f;
             }
-            rho_clutter_map_update_echo(echo, look->sensor, &look->scan->plots[echo->plot]);
-            echo->is_target |= (uint8_t)by_target;
-            taken[echo->plot / 32] |= 1u << echo->plot % 32;
-            if (v_min2 > 0.0f && echo->hits >= 3 &&
-                echo->vx_mps * echo->vx_mps + echo->vy_mps * echo->vy_mps > v_min2) {
-                echo->hits = 0;
-            }
+            map->rate_plots += 1.0f;
+            map->exact_plots += exact / (exact + (1.0f - ratios.share) * ratios.other);
+        }
+        rho_clutter_map_update_echo(echo, look->sensor, plot);
+        echo->is_target |= (uint8_t)by_target;
+        taken[echo->plot / 32] |= 1u << echo->plot % 32;
+        if (v_min2 > 0.0f && echo->hits >= 3 &&
+            echo->vx_mps * echo->vx_mps + echo->vy_mps * echo->vy_mps > v_min2) {
+            echo->hits = 0;
         }
     }
 }
 
 /* True of a valid plot of no echo and, where targets may stand still, of no target's track. */
-static int plot_becomes_echo(const struct rho_look *look, const uint32_t *targets,
-                             const uint32_t *taken, uint32_t row)
+static int becomes_echo(const struct rho_look *look, const uint32_t *targets, const uint32_t *taken,
+                        uint32_t row)
 {
     const int may_stand = !(look->tracker->clutter_map.v_min_mps > 0.0f);
-    return look->fates[row] != RHO_FATE_INVALID && !is_row_in_set(taken, row) &&
-           !(may_stand && is_row_in_set(targets, row));
+    return look->fates[row] != RHO_FATE_INVALID && !is_in_set(taken, row) &&
+           !(may_stand && is_in_set(targets, row));
 }
 
-static void start_echoes_at_plots_not_taken(struct rho_tracker *tracker,
-                                            const struct rho_look *look, const uint32_t *targets,
-                                            const uint32_t *taken)
+void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
-    const float range_max_m = range_max_of_sensor(look);
+    uint32_t targets[(RHO_MAX_PLOTS + 31) / 32] = {0}, taken[(RHO_MAX_PLOTS + 31) / 32] = {0};
+    if (!map->is_looked) {
+        return;
+    }
+    const float range_max_m = sensor_range_max(look);
+    float sensors = 0.0f; /* those that are not silent share a turn */
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_pace *pace = &tracker->sensors[i].pace;
+        const float silent_s = rho_seconds_between(pace->time_us, look->time_us);
+        sensors += pace->is_heard && silent_s < (float)RHO_TRACKER_SILENT_US / 1e6f ? 1.0f : 0.0f;
+    }
+    const float turn_share = 1.0f / ((RHO_SECTORS ? rho_turn_num_scans(look) : 1.0f) *
+                                     (sensors > 1.0f ? sensors : 1.0f));
+    /* the returns of a target's track leave the map once; other tracks fade and add theirs */
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
+            track->returns[c] *= rho_clutter_map_decay_factor(turn_share);
+        }
+        if (track->plot < 0 || (uint32_t)track->plot >= look->num_gated) {
+            continue;
+        }
+        if (moves_as_target(tracker, track)) {
+            targets[track->plot / 32] |= 1u << track->plot % 32;
+            if (!track->has_taken_back) {
+                const float *at = track->kalman.state;
+                rho_clutter_map_remove_returns(
+                    map, rho_clutter_map_region_at(look->sensor, range_max_m, at[0], at[1]),
+                    track->returns);
+                track->has_taken_back = 1;
+            }
+        } else if (map->best_per_m2[track->plot] > 0.0f) {
+            const struct rho_echo *echo = &map->echoes[map->best_echo[track->plot]];
+            if (echo->plot == track->plot && echo->unseen == 1) {
+                track->returns[rho_clutter_map_hit_class(echo->hits)] += echo->weight;
+            }
+        }
+    }
+    update_echoes(tracker, look, targets, taken);
     uint32_t num = 0;
     unsigned place = 0;
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        num += plot_becomes_echo(look, targets, taken, i) ? 1u : 0u;
+        num += becomes_echo(look, targets, taken, i) ? 1u : 0u;
     }
     rho_clutter_map_free_places(map, num, look->time_us);
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (!plot_becomes_echo(look, targets, taken, i)) {
+        if (!becomes_echo(look, targets, taken, i)) {
             continue;
         }
         while (place < RHO_ECHO_PLACES && map->echoes[place].hits > 0) {
@@ -655,40 +483,11 @@ static void start_echoes_at_plots_not_taken(struct rho_tracker *tracker,
         const struct rho_plot *plot = &look->scan->plots[i];
         struct rho_echo *echo = &map->echoes[place];
         rho_clutter_map_start_echo(map, echo, look->scan->sensor_id, look->time_us, plot);
-        echo->is_target = (uint8_t)is_row_in_set(targets, i);
-        echo->region =
-            rho_clutter_map_region_of_place(look->sensor, range_max_m, plot->x_m, plot->y_m);
+        echo->is_target = (uint8_t)is_in_set(targets, i);
+        echo->region = rho_clutter_map_region_at(look->sensor, range_max_m, plot->x_m, plot->y_m);
     }
+    rho_clutter_map_age_counts(map, turn_share);
 }
-
-/* Share of this scan in one turn of all sensors that are not silent. */
-static float scan_share_of_turn_of_all_sensors(const struct rho_look *look)
-{
-    const struct rho_tracker *tracker = look->tracker;
-    float sensors = 0.0f;
-    for (unsigned i = 0; i < tracker->num_rows; i++) {
-        const struct rho_tracker_pace *pace = &tracker->sensors[i].pace;
-        const float silent_s = rho_seconds_between(pace->time_us, look->time_us);
-        sensors += pace->is_heard && silent_s < SILENT_S ? 1.0f : 0.0f;
-    }
-    return 1.0f /
-           ((RHO_SECTORS ? rho_turn_num_scans(look) : 1.0f) * (sensors > 1.0f ? sensors : 1.0f));
-}
-
-void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)
-{
-    uint32_t targets[(RHO_MAX_PLOTS + 31) / 32] = {0}, taken[(RHO_MAX_PLOTS + 31) / 32] = {0};
-    if (!tracker->clutter_map.is_looked) {
-        return;
-    }
-    const float share = scan_share_of_turn_of_all_sensors(look);
-    fade_track_returns_and_mark_target_plots(tracker, look, targets, share);
-    update_map_echoes_and_mark_taken_plots(tracker, look, targets, taken);
-    start_echoes_at_plots_not_taken(tracker, look, targets, taken);
-    rho_clutter_map_age_counts(&tracker->clutter_map, share);
-}
-
-/* ---- the object ------------------------------------------------------------------------------ */
 
 void rho_echoes_init(struct rho_tracker *tracker)
 {

@@ -6,13 +6,8 @@
 
 #include <string.h>
 
-#include "clutter.h"
 #include "plots.h"
-#include "sensors.h"
 #include "step.h"
-
-/* Comparisons of a plot with an area that cost one unit of work. */
-#define COMPARED_A_UNIT 8u
 
 static int is_usable_area(const struct rho_extent *area)
 {
@@ -92,7 +87,8 @@ int rho_areas_hold_plot(const struct rho_look *look, uint32_t plot)
 void rho_areas_mark_plots(struct rho_tracker *tracker, const struct rho_look *look,
                           struct rho_work *work)
 {
-    rho_work_spend(work, look->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
+    /* half as many units as for plots that an iteration passes over */
+    rho_work_spend(work, look->num_gated * tracker->num_excluded / (RHO_WORK_PASSED_A_UNIT * 2u));
     for (uint32_t i = 0; i < look->num_gated; i++) {
         if (look->fates[i] == RHO_FATE_HELD && rho_areas_hold_plot(look, i)) {
             look->fates[i] = RHO_FATE_GHOST;

@@ -6,20 +6,25 @@
  * number of unclaimed plots of a scan, smoothed over ten scans, over the area of all plots so far.
  */
 #include "clutter.h"
-#include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "sensors.h"
-#include "step.h"
+#include "sight.h"
 
-/* Weight of the newest scan in a smoothed count of plots: a memory of ten scans. */
-#define CLUTTER_SMOOTHING 0.1f
-
-/* Lower bound of the clutter density at a plot, 1/m^2. */
-#define DENSITY_MIN 1e-12f
-
-/* Radius of the circle that stands for a track's gate, standard deviations of the track's place. */
-#define GATE_SIGMAS 3.0f
+enum rho_status rho_tracker_set_clutter(struct rho_tracker *tracker, float per_m2)
+{
+    if (!tracker) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_is_within(per_m2, 0.0f, 1e30f)) {
+        return RHO_ERROR_VALUE;
+    }
+    tracker->clutter_per_m2 = per_m2;
+    return RHO_OK;
+}
 
 float rho_clutter_background(const struct rho_look *look, float x_m, float y_m)
 {
@@ -30,6 +35,9 @@ float rho_clutter_background(const struct rho_look *look, float x_m, float y_m)
             return density;
         }
     }
+    if (tracker->clutter_per_m2 > 0.0f) {
+        return tracker->clutter_per_m2;
+    }
     float area_m2 = rho_extent_area_m2(&tracker->extent, RHO_CLUTTER_SIDE_MIN_M);
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
 }
@@ -37,10 +45,11 @@ float rho_clutter_background(const struct rho_look *look, float x_m, float y_m)
 float rho_clutter_background_at(const struct rho_look *look, const struct rho_plot *plot)
 {
     const float density = rho_clutter_background(look, plot->x_m, plot->y_m);
-    return density > DENSITY_MIN ? density : DENSITY_MIN;
+    return rho_larger(density, 1e-12f); /* its logarithm is taken */
 }
 
-static float background_density_for_plots_part(const struct rho_look *look, float x_m, float y_m)
+/* The background in the part of the scan that is claimed. */
+static float part_density(const struct rho_look *look, float x_m, float y_m)
 {
     float density = rho_clutter_background(look, x_m, y_m);
     if (RHO_CLAIMS_BEYOND && look->part_share > 0.0f) {
@@ -52,8 +61,7 @@ static float background_density_for_plots_part(const struct rho_look *look, floa
 
 float rho_clutter_log_at_track(const struct rho_look *look, const struct rho_track *track)
 {
-    return rho_log(
-        background_density_for_plots_part(look, track->kalman.state[0], track->kalman.state[1]));
+    return rho_log(part_density(look, track->kalman.state[0], track->kalman.state[1]));
 }
 
 float rho_clutter_in_gate(const struct rho_look *look, const struct rho_track *track)
@@ -62,8 +70,8 @@ float rho_clutter_in_gate(const struct rho_look *look, const struct rho_track *t
         return 0.0f;
     }
     const float sigma_m = rho_track_sigma_m(track);
-    return 0.5f * RHO_TWO_PI * GATE_SIGMAS * GATE_SIGMAS * sigma_m * sigma_m *
-           background_density_for_plots_part(look, track->kalman.state[0], track->kalman.state[1]);
+    return 0.5f * RHO_TWO_PI * GATE_CIRCLE_SIGMAS * GATE_CIRCLE_SIGMAS * sigma_m * sigma_m *
+           part_density(look, track->kalman.state[0], track->kalman.state[1]);
 }
 
 /*
@@ -91,7 +99,7 @@ void rho_clutter_measure_part(struct rho_look *look)
 
 void rho_clutter_smooth_mean(float *mean, float newest)
 {
-    *mean += CLUTTER_SMOOTHING * (newest - *mean);
+    *mean += NEWEST_SCAN_WEIGHT * (newest - *mean);
 }
 
 void rho_clutter_count_unclaimed(struct rho_tracker *tracker, const struct rho_look *look)

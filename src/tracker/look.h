@@ -13,8 +13,6 @@
 
 #define RHO_TRACKER_MAGIC 0x5452434bu /* "TRCK" */
 
-#define LOG_TWO_PI 1.83787707f
-
 /* Least side of the area over which unclaimed plots are spread for a clutter density. */
 #define RHO_CLUTTER_SIDE_MIN_M 1000.0f
 

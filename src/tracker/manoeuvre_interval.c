@@ -30,7 +30,7 @@ void rho_manoeuvres_reset(struct rho_tracker *tracker, int64_t time_us)
 {
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) &&
         rho_seconds_between(tracker->time_us, time_us) > LOOKED_S) {
-        rho_hypotheses_set_mean_manoeuvre_interval(&tracker->hypotheses, RHO_IMM_CALM_S);
+        rho_hypotheses_set_calm_s(&tracker->hypotheses, RHO_IMM_CALM_S);
         tracker->straight_s = tracker->turning_s = 0.0f;
     }
 }
@@ -51,8 +51,8 @@ void rho_manoeuvres_learn(struct rho_tracker *tracker, const struct rho_look *lo
     const float calm_s = (MANOEUVRES_PRIOR * RHO_IMM_CALM_S + tracker->straight_s) /
                          (MANOEUVRES_PRIOR + tracker->turning_s / model->maneuver_s);
     if (calm_s >= 2.0f * model->calm_s && model->calm_s < LONGEST_S) {
-        rho_hypotheses_set_mean_manoeuvre_interval(&tracker->hypotheses, 2.0f * model->calm_s);
+        rho_hypotheses_set_calm_s(&tracker->hypotheses, 2.0f * model->calm_s);
     } else if (calm_s < 0.75f * model->calm_s && model->calm_s > RHO_IMM_CALM_S) {
-        rho_hypotheses_set_mean_manoeuvre_interval(&tracker->hypotheses, 0.5f * model->calm_s);
+        rho_hypotheses_set_calm_s(&tracker->hypotheses, 0.5f * model->calm_s);
     }
 }

@@ -85,9 +85,9 @@ int rho_learning_count_rate(const struct rho_look *look, const struct rho_track 
     struct rho_tracker_learned *learned = look->learned;
     unsigned rate = RHO_LEARN_RATES - 1u; /* where the range rate is not defined */
     float row[6], rate_mps;
-    if (rho_measurement_predict_range_rate(track->kalman.state, look->sensor,
-                                           track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
-                                           &rate_mps)) {
+    if (rho_measurement_predict_rate(track->kalman.state, look->sensor,
+                                     track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
+                                     &rate_mps)) {
         /* the squares of the intervals' limits double, so that the float's exponent is the index */
         const uint32_t exponent = rho_float_bits(rate_mps * rate_mps / RATE_MIN2) >> 23;
         const uint32_t of_one = rho_float_bits(1.0f) >> 23;

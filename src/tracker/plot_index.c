@@ -10,10 +10,8 @@
  */
 #include <string.h>
 
-#include "clutter.h"
 #include "plots.h"
-#include "sensors.h"
-#include "step.h"
+#include "rhotrack/detail/approx.h"
 
 /* The strip that holds x; the first or the last one where x is outside of all strips. */
 static unsigned strip_of_x(const struct rho_tracker_strips *strips, float x_m)
@@ -25,30 +23,25 @@ static unsigned strip_of_x(const struct rho_tracker_strips *strips, float x_m)
     return place < (float)(RHO_PLOT_STRIPS - 1) ? (unsigned)place : RHO_PLOT_STRIPS - 1u;
 }
 
-/* Lays the strips over the extent in x of the held plots. */
-static void lay_strips(const struct rho_look *look, struct rho_tracker_strips *strips)
-{
-    float x_min_m = RHO_LIMIT_POSITION_M, x_max_m = -RHO_LIMIT_POSITION_M;
-    for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] == RHO_FATE_HELD) {
-            const float x_m = look->scan->plots[i].x_m;
-            x_min_m = x_m < x_min_m ? x_m : x_min_m;
-            x_max_m = x_m > x_max_m ? x_m : x_max_m;
-        }
-    }
-    strips->x_min_m = x_min_m;
-    strips->per_m = x_max_m > x_min_m ? (float)RHO_PLOT_STRIPS / (x_max_m - x_min_m) : 0.0f;
-}
-
 /*
- * Counting sort. starts[s + 2] first counts the plots of strip s; after the sums starts[s + 1] is
- * where the next plot of strip s goes, and so ends as the start of strip s + 1.
+ * Lays the strips over the extent in x of the held plots. Counting sort: starts[s + 2] first counts
+ * the plots of strip s; after the sums starts[s + 1] is where the next plot of strip s goes, and so
+ * ends as the start of strip s + 1.
  */
 static void sort_plots_by_strip(struct rho_tracker *tracker, const struct rho_look *look)
 {
     struct rho_tracker_strips *strips = &tracker->strips;
     uint16_t *starts = strips->starts;
-    lay_strips(look, strips);
+    float x_min_m = RHO_LIMIT_POSITION_M, x_max_m = -RHO_LIMIT_POSITION_M;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            const float x_m = look->scan->plots[i].x_m;
+            x_min_m = rho_smaller(x_m, x_min_m);
+            x_max_m = rho_larger(x_m, x_max_m);
+        }
+    }
+    strips->x_min_m = x_min_m;
+    strips->per_m = x_max_m > x_min_m ? (float)RHO_PLOT_STRIPS / (x_max_m - x_min_m) : 0.0f;
     memset(starts, 0, sizeof strips->starts);
     for (uint32_t i = 0; i < look->num_gated; i++) {
         if (look->fates[i] == RHO_FATE_HELD) {
@@ -76,10 +69,10 @@ static void bound_plot_boxes(struct rho_look *look)
         for (uint32_t i = first; i < end && i < look->num_gated; i++) {
             const struct rho_plot *plot = &look->scan->plots[i];
             if (look->fates[i] == RHO_FATE_HELD) {
-                box.x_min_m = plot->x_m < box.x_min_m ? plot->x_m : box.x_min_m;
-                box.x_max_m = plot->x_m > box.x_max_m ? plot->x_m : box.x_max_m;
-                box.y_min_m = plot->y_m < box.y_min_m ? plot->y_m : box.y_min_m;
-                box.y_max_m = plot->y_m > box.y_max_m ? plot->y_m : box.y_max_m;
+                box.x_min_m = rho_smaller(plot->x_m, box.x_min_m);
+                box.x_max_m = rho_larger(plot->x_m, box.x_max_m);
+                box.y_min_m = rho_smaller(plot->y_m, box.y_min_m);
+                box.y_max_m = rho_larger(plot->y_m, box.y_max_m);
             }
         }
         look->boxes[k] = box;

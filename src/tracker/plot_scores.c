@@ -5,11 +5,8 @@
  */
 #include "clutter.h"
 #include "plots.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
-#include "sensors.h"
-#include "step.h"
-
-/* ---- offers ---------------------------------------------------------------------------------- */
 
 int32_t rho_score_to_mnat(float nat)
 {
@@ -50,6 +47,17 @@ int rho_score_pair_gain(const struct rho_look *look, unsigned row, int column, f
     return 0;
 }
 
+void rho_score_remove_row(struct rho_tracker *tracker, unsigned row)
+{
+    struct rho_assignment *assignment = &tracker->assignment;
+    for (unsigned from = row + 1u; from < assignment->num_rows; from++) {
+        rho_assignment_move_pairs(assignment, from, from - 1u);
+    }
+    if (row < assignment->num_rows) {
+        assignment->num_rows--;
+    }
+}
+
 void rho_score_solve(struct rho_tracker *tracker)
 {
     rho_assignment_solve(&tracker->assignment);
@@ -57,32 +65,22 @@ void rho_score_solve(struct rho_tracker *tracker)
         rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
 }
 
-/* ---- scores ---------------------------------------------------------------------------------- */
-
-/*
- * ln of the density of a gated plot by the track, over that by clutter, which is uniform in height
- * and in all range rates that a target may have.
- */
-static float log_likelihood_ratio(const struct rho_look *look, const struct rho_gate_result *result,
-                                  float log_density)
-{
-    float dimensions = 2.0f;
-    if (result->has_z) {
-        log_density -= look->log_height;
-        dimensions += 1.0f;
-    }
-    if (result->has_range_rate) {
-        log_density -= look->log_range_rates;
-        dimensions += 1.0f;
-    }
-    return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
-}
-
 float rho_score_plot(const struct rho_look *look, const struct rho_track *track,
                      const struct rho_gate_result *result, float log_density, uint32_t row)
 {
-    return rho_look_detection(look, track).log_pd +
-           log_likelihood_ratio(look, result, rho_clutter_log_at_plot(look, log_density, row));
+    /* clutter is uniform in height and in all range rates that a target may have */
+    float log_clutter = rho_clutter_log_at_plot(look, log_density, row), dimensions = 2.0f;
+    if (result->has_z) {
+        log_clutter -= look->log_height;
+        dimensions += 1.0f;
+    }
+    if (result->has_range_rate) {
+        log_clutter -= look->log_range_rates;
+        dimensions += 1.0f;
+    }
+    const float log_ratio =
+        -0.5f * (dimensions * RHO_LOG_TWO_PI + result->log_det + result->distance2) - log_clutter;
+    return rho_look_detection(look, track).log_pd + log_ratio;
 }
 
 float rho_score_log_miss(const struct rho_look *look, const struct rho_track *track)
@@ -103,31 +101,10 @@ struct rho_track_plot rho_score_track_plot(const struct rho_look *look, int plot
     };
 }
 
-/* ---- hypotheses ------------------------------------------------------------------------------ */
-
-/*
- * Plots in the box of a track's hypotheses, widened by the largest noise and time offset of the
- * scan's plots, so that it holds every plot in the gate of a hypothesis.
- */
-static struct plots_near plots_near_track(const struct rho_look *look,
-                                          const struct rho_track *track,
-                                          struct rho_hypotheses_box *box)
-{
-    const float slack_m = rho_hypotheses_box_margin_m(&look->tracker->hypotheses, track->slot, box,
-                                                      look->sigma_max_m, look->offset_max_s);
-    return rho_plots_near(look->tracker, box->x_min_m - slack_m, box->x_max_m + slack_m,
-                          box->y_min_m - slack_m, box->y_max_m + slack_m);
-}
-
-/* True where each box of the plot index holds one plot, so that the box decides on the plot. */
-static int is_one_plot_per_index_box(const struct rho_look *look)
-{
-    return RHO_PLOT_STRIPS <= 1 && look->plots_of_box == 1u;
-}
-
 /*
  * True where a plot is in the gate box of the track's hypotheses for its own noise, and is not
- * assigned to another track. The limits for any noise are tested first: most plots fail there.
+ * assigned to another track. The limits for any noise are tested first, as most plots fail
+ * there, unless each box of the plot index holds one plot, so that the box has decided on it.
  */
 static int is_unassigned_and_near(const struct rho_look *look, struct plot_scores *scores,
                                   uint32_t i)
@@ -135,24 +112,11 @@ static int is_unassigned_and_near(const struct rho_look *look, struct plot_score
     const struct rho_tracker *tracker = look->tracker;
     const struct rho_plot *plot = &look->scan->plots[i];
     const int owner = tracker->assignment.column_row[i];
-    return (is_one_plot_per_index_box(look) || rho_plots_is_within(&scores->near, plot)) &&
+    return ((RHO_PLOT_STRIPS <= 1 && look->plots_of_box == 1u) ||
+            rho_plots_is_within(&scores->near, plot)) &&
            look->fates[i] == RHO_FATE_HELD && !(owner >= 0 && owner != (int)scores->track_row) &&
            rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
                                     &scores->box, plot, look->scan->measures);
-}
-
-static void choose_plots_to_score(const struct rho_look *look, struct rho_work *work,
-                                  const struct rho_track *track, struct plot_scores *scores)
-{
-    struct plots_near counted = scores->near;
-    scores->choice = rho_work_begin_choice(look, work, track);
-    for (uint32_t i; scores->choice.most < rho_plots_max_near(look, &scores->near) &&
-                     rho_plots_next(look, &counted, &i);) {
-        if (is_unassigned_and_near(look, scores, i)) {
-            rho_work_count_plot(&scores->choice, track, &look->scan->plots[i]);
-        }
-    }
-    rho_work_limit_choice(work, &scores->choice);
 }
 
 void rho_score_begin(struct rho_tracker *tracker, const struct rho_look *look,
@@ -167,10 +131,23 @@ void rho_score_begin(struct rho_tracker *tracker, const struct rho_look *look,
         .log_per_mps = -look->log_rates,
         .log_per_range_rate = -look->log_range_rates,
     };
-    rho_hypotheses_clear_candidates_get_gate_box(&tracker->hypotheses, track->slot, &scores->box);
-    scores->box.sigma_factor = rho_measurement_sigma_factor_at_least_one(look->sensor);
-    scores->near = plots_near_track(look, track, &scores->box);
-    choose_plots_to_score(look, work, track, scores);
+    rho_hypotheses_gate_box(&tracker->hypotheses, track->slot, &scores->box);
+    scores->box.sigma_factor = rho_measurement_factor_max(look->sensor);
+    /* widened by the largest noise and time offset, so that it holds every gate of a hypothesis */
+    const float slack_m = rho_hypotheses_box_margin_m(
+        &tracker->hypotheses, track->slot, &scores->box, look->sigma_max_m, look->offset_max_s);
+    scores->near =
+        rho_plots_near(tracker, scores->box.x_min_m - slack_m, scores->box.x_max_m + slack_m,
+                       scores->box.y_min_m - slack_m, scores->box.y_max_m + slack_m);
+    struct plots_near counted = scores->near;
+    scores->choice = rho_work_begin_choice(look, work, track);
+    for (uint32_t i; scores->choice.most < rho_plots_max_near(look, &scores->near) &&
+                     rho_plots_next(look, &counted, &i);) {
+        if (is_unassigned_and_near(look, scores, i)) {
+            rho_work_count_plot(&scores->choice, track, &look->scan->plots[i]);
+        }
+    }
+    rho_work_limit_choice(work, &scores->choice);
 }
 
 int rho_score_next(struct rho_tracker *tracker, const struct rho_look *look, struct rho_work *work,

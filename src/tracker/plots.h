@@ -57,15 +57,15 @@ static inline uint32_t rho_plots_max_near(const struct rho_look *look,
  */
 #define RHO_WORK_OCTAVES 40u
 /*
- * A phase may do work_max / N units of work, with N for echoes of clutter; for claims and for
- * updates each; for second plots; for second plots of new tracks; for images; for groups.
+ * A phase may do work_max / N units of work, with N for claims and for updates each; for groups;
+ * for echoes of clutter; for second plots; for second plots of new tracks; for images.
  */
-#define RHO_WORK_ECHOES_SHARE 8u
 #define RHO_WORK_TRACKS_SHARE 4u
-#define RHO_WORK_SECOND_SHARE 16u
-#define RHO_WORK_STARTS_SHARE 16u
-#define RHO_WORK_IMAGES_SHARE 16u
-#define RHO_WORK_GROUPS_SHARE 4u
+#define RHO_WORK_GROUPS_SHARE RHO_WORK_TRACKS_SHARE
+#define RHO_WORK_ECHOES_SHARE (RHO_WORK_TRACKS_SHARE * 2u)
+#define RHO_WORK_SECOND_SHARE (RHO_WORK_ECHOES_SHARE * 2u)
+#define RHO_WORK_STARTS_SHARE RHO_WORK_SECOND_SHARE
+#define RHO_WORK_IMAGES_SHARE RHO_WORK_SECOND_SHARE
 /* Plots that an iteration passes over for one unit of work. */
 #define RHO_WORK_PASSED_A_UNIT 4u
 /* The plots near a track that are to be scored: the nearest ones that its share allows. */

@@ -7,52 +7,25 @@
 
 #include <string.h>
 
-#include "clutter.h"
 #include "mirror_state.h"
 #include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "sensors.h"
 #include "step.h"
-
-/*
- * Standard deviations of a track's place by which the line of sight to its image may miss the wall.
- */
-#define BESIDE_SIGMAS 3.0f
-
-/* Fewest hits of a track whose images are looked for; one with fewer may be of clutter. */
-#define IMAGED_HITS 3
-
-/*
- * Limit of the NIS between a track and the image of another one, in place and velocity: the 99.9 %
- * quantile of chi-square in four dimensions.
- */
-#define IMAGE_CHI2 18.5f
-/* Hits over looks below which also an established track may be an image. */
-#define IMAGE_SHARE 0.6f
-
-/* Units of work for a gate test, and for computing the image of a track. */
-#define TEST_UNITS 3u
-#define IMAGE_UNITS 12u
-
-/* ---- walls ----------------------------------------------------------------------------------- */
-
-static int is_usable_wall(const struct rho_reflector *reflector)
-{
-    const float x_m = reflector->to_x_m - reflector->from_x_m,
-                y_m = reflector->to_y_m - reflector->from_y_m;
-    return rho_is_coordinate(reflector->from_x_m) && rho_is_coordinate(reflector->from_y_m) &&
-           rho_is_coordinate(reflector->to_x_m) && rho_is_coordinate(reflector->to_y_m) &&
-           x_m * x_m + y_m * y_m >= RHO_REFLECTOR_LEAST_M * RHO_REFLECTOR_LEAST_M;
-}
 
 static int are_usable_walls(const struct rho_reflector *reflectors, unsigned num_reflectors)
 {
-    unsigned i = 0;
-    while (i < num_reflectors && is_usable_wall(&reflectors[i])) {
-        i++;
+    for (unsigned i = 0; i < num_reflectors; i++) {
+        const struct rho_reflector *wall = &reflectors[i];
+        const float x_m = wall->to_x_m - wall->from_x_m, y_m = wall->to_y_m - wall->from_y_m;
+        if (!rho_is_coordinate(wall->from_x_m) || !rho_is_coordinate(wall->from_y_m) ||
+            !rho_is_coordinate(wall->to_x_m) || !rho_is_coordinate(wall->to_y_m) ||
+            !(x_m * x_m + y_m * y_m >= RHO_REFLECTOR_LEAST_M * RHO_REFLECTOR_LEAST_M)) {
+            return 0;
+        }
     }
-    return i == num_reflectors;
+    return 1;
 }
 
 enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
@@ -90,28 +63,16 @@ struct wall {
     float x_m, y_m, along_x, along_y, length_m;
 };
 
-static struct wall wall_of(const struct rho_reflector *reflector)
-{
-    const float x_m = reflector->to_x_m - reflector->from_x_m,
-                y_m = reflector->to_y_m - reflector->from_y_m;
-    const float length_m = rho_sqrt(x_m * x_m + y_m * y_m);
-    return (struct wall){reflector->from_x_m, reflector->from_y_m, x_m / length_m, y_m / length_m,
-                         length_m};
-}
-
 /* Signed distance of a place from the wall's line, > 0 on its left; and position along the line. */
-static float signed_distance_from_wall(const struct wall *wall, float x_m, float y_m,
-                                       float *along_m)
+static float wall_distance(const struct wall *wall, float x_m, float y_m, float *along_m)
 {
     const float dx_m = x_m - wall->x_m, dy_m = y_m - wall->y_m;
     *along_m = dx_m * wall->along_x + dy_m * wall->along_y;
     return dy_m * wall->along_x - dx_m * wall->along_y;
 }
 
-/* ---- images ---------------------------------------------------------------------------------- */
-
 /* Reflects a vector in the wall's line: the component across the wall changes its sign. */
-static void reflect_vector_in_wall(const struct wall *wall, float *x, float *y)
+static void reflect_vector(const struct wall *wall, float *x, float *y)
 {
     const float along = *x * wall->along_x + *y * wall->along_y;
     const float kept = 2.0f * along;
@@ -145,19 +106,23 @@ int rho_reflector_mirror_state(const struct rho_reflector *reflector,
                                const struct rho_kalman *of, struct rho_kalman *image,
                                float *crossing_m)
 {
-    const struct wall wall = wall_of(reflector);
+    const float x_m = reflector->to_x_m - reflector->from_x_m,
+                y_m = reflector->to_y_m - reflector->from_y_m;
+    const float length_m = rho_sqrt(x_m * x_m + y_m * y_m);
+    const struct wall wall = {reflector->from_x_m, reflector->from_y_m, x_m / length_m,
+                              y_m / length_m, length_m};
     float sensor_along_m, image_along_m;
     *image = *of;
     image->state[RHO_X] -= wall.x_m;
     image->state[RHO_Y] -= wall.y_m;
-    reflect_vector_in_wall(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
-    reflect_vector_in_wall(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
+    reflect_vector(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
+    reflect_vector(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
     image->state[RHO_X] += wall.x_m;
     image->state[RHO_Y] += wall.y_m;
-    const float sensor_m = signed_distance_from_wall(&wall, sensor ? sensor->x_m : 0.0f,
-                                                     sensor ? sensor->y_m : 0.0f, &sensor_along_m);
+    const float sensor_m = wall_distance(&wall, sensor ? sensor->x_m : 0.0f,
+                                         sensor ? sensor->y_m : 0.0f, &sensor_along_m);
     const float image_m =
-        signed_distance_from_wall(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
+        wall_distance(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
     if (!(sensor_m * image_m < 0.0f)) {
         return 0;
     }
@@ -171,14 +136,13 @@ int rho_reflector_mirror_state(const struct rho_reflector *reflector,
 }
 
 /* Computes the image of a track in a wall. Returns 0 where the sensor cannot see it. */
-static int make_image_of_track(const struct rho_look *look, struct rho_work *work,
-                               unsigned reflector, const struct rho_track *track,
-                               struct rho_kalman *image)
+static int make_image(const struct rho_look *look, struct rho_work *work, unsigned reflector,
+                      const struct rho_track *track, struct rho_kalman *image)
 {
     float crossing_m;
     rho_work_spend(work, IMAGE_UNITS);
     return rho_reflector_mirror_state(&look->tracker->reflectors[reflector], look->sensor,
-                                      BESIDE_SIGMAS * rho_track_sigma_m(track), &track->kalman,
+                                      BESIDE_WALL_SIGMAS * rho_track_sigma_m(track), &track->kalman,
                                       image, &crossing_m);
 }
 
@@ -190,10 +154,8 @@ static int may_have_images(const struct rho_look *look, unsigned row)
            track->time_us == look->time_us;
 }
 
-/* ---- plots ----------------------------------------------------------------------------------- */
-
-static void mark_plots_at_image_as_ghosts(const struct rho_look *look, struct rho_work *work,
-                                          const struct rho_kalman *image)
+static void mark_ghosts(const struct rho_look *look, struct rho_work *work,
+                        const struct rho_kalman *image)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -208,7 +170,7 @@ static void mark_plots_at_image_as_ghosts(const struct rho_look *look, struct rh
         const float dx_m = plot->x_m - image->state[RHO_X], dy_m = plot->y_m - image->state[RHO_Y];
         if (look->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
             dy_m <= half_m[1] && dy_m >= -half_m[1]) {
-            rho_work_spend(work, TEST_UNITS);
+            rho_work_spend(work, IMAGE_TEST_UNITS);
             if (rho_gate_test(&gate, plot, &result)) {
                 look->fates[i] = RHO_FATE_GHOST;
             }
@@ -226,25 +188,15 @@ void rho_images_mark_plots(const struct rho_look *look, struct rho_work *work)
                 work->is_partial = 1;
                 return;
             }
-            if (make_image_of_track(look, work, i, &look->tracker->tracks[row], &image)) {
-                mark_plots_at_image_as_ghosts(look, work, &image);
+            if (make_image(look, work, i, &look->tracker->tracks[row], &image)) {
+                mark_ghosts(look, work, &image);
             }
         }
     }
 }
 
-/* ---- tracks ---------------------------------------------------------------------------------- */
-
-static int may_be_image_track(const struct rho_look *look, const struct rho_track *track)
-{
-    const float looks = (float)track->hits + (float)track->misses;
-    return track->status != RHO_TRACK_FREE && track->time_us == look->time_us &&
-           (!rho_life_is_established(track) || (float)track->hits < IMAGE_SHARE * looks);
-}
-
 /* True where a track agrees with an image in horizontal place and velocity. */
-static int does_track_agree_with_image(const struct rho_track *track,
-                                       const struct rho_kalman *image)
+static int agrees_with_image(const struct rho_track *track, const struct rho_kalman *image)
 {
     static const uint8_t of[4] = {RHO_X, RHO_Y, RHO_VX, RHO_VY};
     float s[RHO_TRIANGLE(4)], off[4], chi2, log_det;
@@ -259,7 +211,7 @@ static int does_track_agree_with_image(const struct rho_track *track,
     return rho_linalg_gated_nis(4, s, off, IMAGE_CHI2, &chi2, &log_det);
 }
 
-static int is_image_of_other_track(const struct rho_look *look, struct rho_work *work, unsigned row)
+static int is_image_of_other(const struct rho_look *look, struct rho_work *work, unsigned row)
 {
     const struct rho_tracker *tracker = look->tracker;
     struct rho_kalman image;
@@ -271,8 +223,8 @@ static int is_image_of_other_track(const struct rho_look *look, struct rho_work 
                 work->is_partial = 1;
                 return 0;
             }
-            if (make_image_of_track(look, work, i, of, &image) &&
-                does_track_agree_with_image(&tracker->tracks[row], &image)) {
+            if (make_image(look, work, i, of, &image) &&
+                agrees_with_image(&tracker->tracks[row], &image)) {
                 return 1;
             }
         }
@@ -286,8 +238,10 @@ void rho_images_end_tracks(struct step *step)
     rho_work_begin_phase(tracker, &step->work, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (may_be_image_track(&step->look, track) &&
-            is_image_of_other_track(&step->look, &step->work, row)) {
+        const float looks = (float)track->hits + (float)track->misses;
+        if (track->status != RHO_TRACK_FREE && track->time_us == step->look.time_us &&
+            (!rho_life_is_established(track) || (float)track->hits < IMAGE_SHARE * looks) &&
+            is_image_of_other(&step->look, &step->work, row)) {
             rho_life_end(step, track);
         }
     }

@@ -20,27 +20,13 @@
  * and the expectation of their squares is p / (1 - p) (d^2 / 2 n)^2, whose sum is the weight of the
  * estimate. l moves by the derivative over the weight (Fisher's scoring).
  */
-#include "clutter.h"
-#include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 #include "sensors.h"
-#include "step.h"
 
 /* Variance n over the squared resolution cell: 1 / (2 ln 2). */
 #define NEAR_OF_CELL 0.72134752f
-/* Weight of the default resolution cell, and the largest weight that pairs of tracks add up to. */
-#define WEIGHT_FIRST 4.0f
-#define WEIGHT_MAX 200.0f
-/* Limit of l, the learned logarithm, either way: cells of 0.3 to 19 sigmas. */
-#define LOG_MAX 4.2f
-/* Least probability 1 - p that two targets are resolved: rounding may leave 0, a divisor. */
-#define RESOLVED_EPSILON 1e-3f
-
-static float learned_log_cell_over_plot_variance(const struct rho_look *look, int axis)
-{
-    return look->learned ? look->learned->log_cell[axis] : 0.0f;
-}
 
 static int is_cell_stated(const struct rho_sensor *sensor, int axis)
 {
@@ -48,23 +34,20 @@ static int is_cell_stated(const struct rho_sensor *sensor, int axis)
            (axis == 0 ? sensor->resolution_range_m : sensor->resolution_azimuth_rad) > 0.0f;
 }
 
-static float stated_cell_m(const struct rho_sensor *sensor, const struct rho_plot *plot, int axis)
-{
-    const float x_m = plot->x_m - sensor->x_m, y_m = plot->y_m - sensor->y_m;
-    return axis == 0 ? sensor->resolution_range_m
-                     : sensor->resolution_azimuth_rad * rho_sqrt(x_m * x_m + y_m * y_m);
-}
-
 void rho_cell_variances_at(const struct rho_look *look, const struct rho_plot *plot,
                            const struct rho_measurement *seen, float near_m2[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         if (is_cell_stated(look->sensor, axis)) {
-            const float cell_m = stated_cell_m(look->sensor, plot, axis);
+            const struct rho_sensor *sensor = look->sensor;
+            const float x_m = plot->x_m - sensor->x_m, y_m = plot->y_m - sensor->y_m;
+            const float cell_m =
+                axis == 0 ? sensor->resolution_range_m
+                          : sensor->resolution_azimuth_rad * rho_sqrt(x_m * x_m + y_m * y_m);
             near_m2[axis] = NEAR_OF_CELL * cell_m * cell_m;
         } else {
             near_m2[axis] = 4.0f * seen->variance_m2[axis] *
-                            rho_exp(learned_log_cell_over_plot_variance(look, axis));
+                            rho_exp(look->learned ? look->learned->log_cell[axis] : 0.0f);
         }
     }
 }
@@ -82,8 +65,6 @@ int rho_cell_is_usable(const struct rho_sensor *sensor)
            rho_is_within(sensor->resolution_range_rate_mps, 0.0f, 2.0f * RHO_LIMIT_SPEED_MPS);
 }
 
-/* ---- what pairs say -------------------------------------------------------------------------- */
-
 void rho_cell_learn(const struct rho_look *look, const struct apart *apart)
 {
     struct rho_tracker_learned *learned = look->learned;
@@ -97,7 +78,7 @@ void rho_cell_learn(const struct rho_look *look, const struct apart *apart)
         distance += of_two[axis];
     }
     const float merged = rho_exp(-distance);
-    const float odds = merged / rho_larger(1.0f - merged, RESOLVED_EPSILON);
+    const float odds = merged / rho_larger(1.0f - merged, 1e-3f); /* rounding may leave 0 */
     for (int axis = 0; axis < 2; axis++) {
         float *weight = &learned->cell_weight[axis], *nat = &learned->log_cell[axis];
         if (is_cell_stated(look->sensor, axis)) {
@@ -105,16 +86,16 @@ void rho_cell_learn(const struct rho_look *look, const struct apart *apart)
         }
         const float slope =
             apart->is_one * of_one[axis] - (1.0f - apart->is_one) * odds * of_two[axis];
-        *weight = rho_smaller(*weight + odds * of_two[axis] * of_two[axis], WEIGHT_MAX);
-        *nat += slope / (WEIGHT_FIRST + *weight);
-        *nat = rho_larger(-LOG_MAX, rho_smaller(LOG_MAX, *nat));
+        *weight = rho_smaller(*weight + odds * of_two[axis] * of_two[axis], CELL_WEIGHT_MAX);
+        *nat += slope / (CELL_WEIGHT_FIRST + *weight);
+        *nat = rho_larger(-CELL_LOG_MAX, rho_smaller(CELL_LOG_MAX, *nat));
     }
 }
 
 float rho_cell_learned_sigmas(const struct rho_tracker_learned *learned, int axis)
 {
     /* cell = sqrt(n / NEAR_OF_CELL) with n = e^l (2 sigma)^2 */
-    return learned->cell_weight[axis] >= WEIGHT_FIRST
+    return learned->cell_weight[axis] >= CELL_WEIGHT_FIRST
                ? 2.0f * rho_sqrt(rho_exp(learned->log_cell[axis]) / NEAR_OF_CELL)
                : 0.0f;
 }
@@ -122,8 +103,8 @@ float rho_cell_learned_sigmas(const struct rho_tracker_learned *learned, int axi
 int rho_cell_is_sound(const struct rho_tracker_learned *learned)
 {
     for (int axis = 0; axis < 2; axis++) {
-        if (!rho_is_within(learned->log_cell[axis], -LOG_MAX, LOG_MAX) ||
-            !rho_is_within(learned->cell_weight[axis], 0.0f, WEIGHT_MAX)) {
+        if (!rho_is_within(learned->log_cell[axis], -CELL_LOG_MAX, CELL_LOG_MAX) ||
+            !rho_is_within(learned->cell_weight[axis], 0.0f, CELL_WEIGHT_MAX)) {
             return 0;
         }
     }

@@ -12,6 +12,7 @@
  *                  '----|---'   previous sector takes none here. One without a plot is missed
  *                               in the sector in which the antenna passes the end of its gate
  */
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
@@ -110,8 +111,8 @@ static int sector_holds_gate_end(const struct rho_look *look, const struct rho_t
     const float dx_m = track->kalman.state[0] - (look->sensor ? look->sensor->x_m : 0.0f);
     const float dy_m = track->kalman.state[1] - (look->sensor ? look->sensor->y_m : 0.0f);
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-    /* a gate of three sigmas of the track's place, as in rho_clutter_in_gate */
-    float margin_rad = 3.0f * rho_track_sigma_m(track) / (range_m > 1.0f ? range_m : 1.0f);
+    float margin_rad =
+        GATE_CIRCLE_SIGMAS * rho_track_sigma_m(track) / (range_m > 1.0f ? range_m : 1.0f);
     if (!(margin_rad < 0.5f * width_rad)) {
         margin_rad = 0.5f * width_rad;
     }
@@ -153,7 +154,7 @@ int rho_turn_was_seen_by(const struct rho_track *track, int32_t sensor_id)
 
 int rho_turn_is_sound(const struct rho_tracker_look *health)
 {
-    return rho_angle_are_sector_ends_valid(health->sector_from_rad, health->sector_to_rad) &&
+    return rho_angle_is_valid_sector(health->sector_from_rad, health->sector_to_rad) &&
            rho_is_stored_time(health->time_us) &&
            rho_tracker_is_score_in_range(health->start_mnat) &&
            rho_tracker_is_score_in_range(health->confirm_mnat) &&

@@ -36,14 +36,13 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
 
 int rho_sensors_is_usable(const struct rho_sensor *sensor)
 {
-    return rho_measurement_has_valid_place_and_biases(sensor) &&
-           rho_is_within(sensor->pd, 0.01f, 0.999f) &&
+    return rho_measurement_is_valid_site(sensor) && rho_is_within(sensor->pd, 0.01f, 0.999f) &&
            rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            sensor->range_min_m < sensor->range_max_m &&
            (!RHO_DOPPLER_NOTCH || rho_notch_is_valid(sensor)) &&
            (!RHO_SHARES_PLOTS || rho_cell_is_usable(sensor)) &&
-           rho_angle_are_sector_ends_valid(sensor->sector_from_rad, sensor->sector_to_rad);
+           rho_angle_is_valid_sector(sensor->sector_from_rad, sensor->sector_to_rad);
 }
 
 /*

@@ -109,7 +109,7 @@ static float root_mean_variance(const struct rho_kalman *kalman, int first)
     float sum = 0.0f;
     int axes = 0;
     for (int axis = 0; axis < 3; axis++) {
-        if (rho_kalman_has_estimate_on_axis(kalman, axis)) {
+        if (rho_kalman_has_axis(kalman, axis)) {
             sum += kalman->covariance[RHO_AT(first + axis, first + axis)];
             axes++;
         }
@@ -179,7 +179,7 @@ static enum rho_status update_kalman(struct rho_track *track, const struct rho_t
 /* Copies the estimate of the input estimation filter, and its inputs, to the track. */
 static void copy_input_estimate(struct rho_track *track)
 {
-    rho_input_get_corrected_estimate(&track->input, &track->kalman);
+    rho_input_estimate(&track->input, &track->kalman);
     for (int axis = 0; axis < 3; axis++) {
         int is_present = (track->input.present >> axis & 1u) != 0;
         track->accel_mps2[axis] = is_present ? track->input.input_mps2[axis] : 0.0f;
@@ -201,8 +201,8 @@ static enum rho_status update_input(struct rho_track *track, const struct rho_tr
         status = rho_input_update_position(&input, model->input, &measurement);
     }
     for (int axis = 0; status == RHO_OK && axis < num_velocities_of(seen, &measurement); axis++) {
-        status = rho_input_update_filter_by_element(
-            &input, model->input, 3 + axis, velocity_mps[axis], plot->sigma_mps * plot->sigma_mps);
+        status = rho_input_update_element(&input, model->input, 3 + axis, velocity_mps[axis],
+                                          plot->sigma_mps * plot->sigma_mps);
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status =
@@ -210,7 +210,7 @@ static enum rho_status update_input(struct rho_track *track, const struct rho_tr
                                         plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
     }
     if (status == RHO_OK) {
-        rho_input_test_and_end_inputs(&input, model->input);
+        rho_input_decide(&input, model->input);
         track->input = input;
         track->is_undecided = 0;
         copy_input_estimate(track);
@@ -227,7 +227,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
      * its line of sight, so that bearings of several sensors are needed
      */
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
-        rho_input_test_and_end_inputs(&track->input, model->input);
+        rho_input_decide(&track->input, model->input);
         copy_input_estimate(track);
         track->is_undecided = 0;
     }
@@ -246,7 +246,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
 void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalman *expected)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
-        rho_input_estimate_with_all_inputs(&track->input, expected);
+        rho_input_gate_estimate(&track->input, expected);
     } else {
         *expected = track->kalman;
     }
@@ -381,8 +381,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     if (!track || !estimate || !model) {
         return RHO_ERROR_NULL;
     }
-    if (hits < 1 || !rho_kalman_has_estimate_on_axis(estimate, 0) ||
-        !rho_kalman_has_estimate_on_axis(estimate, 1)) {
+    if (hits < 1 || !rho_kalman_has_axis(estimate, 0) || !rho_kalman_has_axis(estimate, 1)) {
         return RHO_ERROR_VALUE;
     }
     struct rho_track start;
@@ -452,7 +451,7 @@ enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
         return rho_track_predict(track, time_us, model); /* input estimation has noise per scan */
     }
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        status = rho_hypotheses_predict_noiseless(model->hypotheses, track->slot, time_us);
+        status = rho_hypotheses_move(model->hypotheses, track->slot, time_us);
     }
     if (status == RHO_OK) {
         status =
@@ -501,10 +500,9 @@ enum rho_status rho_track_update_by_plot(struct rho_track *track, const struct r
     return RHO_OK;
 }
 
-enum rho_status rho_track_commit_hypotheses_to_scan(struct rho_track *track,
-                                                    const struct rho_hypotheses_scan *scan,
-                                                    int32_t sensor_id,
-                                                    const struct rho_track_model *model)
+enum rho_status rho_track_commit_scan(struct rho_track *track,
+                                      const struct rho_hypotheses_scan *scan, int32_t sensor_id,
+                                      const struct rho_track_model *model)
 {
     struct rho_hypotheses_outcome outcome;
     if (!track || !scan || !model) {

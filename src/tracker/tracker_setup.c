@@ -127,8 +127,7 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
     }
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
         const struct rho_imm_model model = motion_model(config);
-        const enum rho_status status =
-            rho_hypotheses_set_model_but_calm_time(&tracker->hypotheses, &model);
+        const enum rho_status status = rho_hypotheses_set_model(&tracker->hypotheses, &model);
         if (status != RHO_OK) {
             return status;
         }

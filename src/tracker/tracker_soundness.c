@@ -38,7 +38,7 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
     return has_sound_filter && is_sound_input(track) &&
            (!RHO_SECTORS || rho_is_stored_time(track->ahead_us)) &&
            (RHO_MAX_ECHOES == 0 ||
-            (rho_echoes_is_sound_track(track) && rho_second_plots_is_sound_track(track))) &&
+            (rho_echoes_is_sound_track(track) && rho_second_is_sound_track(track))) &&
            (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || track->is_frozen <= 1) &&
            track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&
@@ -105,6 +105,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_tracker_is_score_in_range(tracker->start_mnat) &&
            rho_tracker_is_score_in_range(tracker->confirm_mnat) && tracker->looks_max > 0 &&
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
+           rho_is_within(tracker->clutter_per_m2, 0.0f, 1e30f) &&
            rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
            rho_is_within(tracker->ended_early, 0.0f, 1e9f) &&
            rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&

@@ -12,33 +12,8 @@
  * before the search, and another is reserved for tracks of images after it. The search has the
  * rest.
  */
-#include "clutter.h"
 #include "plots.h"
-#include "sensors.h"
-#include "step.h"
-
-/* 1 / share of a phase that is reserved for the tracks, and 1 / share of the rest for one track. */
-#define KEPT_SHARE 2u
-#define FREE_PARTS 4u
-
-/*
- * Units of work: to score a plot with one hypothesis; in addition to predict the hypothesis to the
- * plot's own time, and for a measured velocity in two or three axes; for a Kalman filter's gate.
- */
-#define SCORE_UNITS 20u
-#define MOVE_UNITS 60u
-#define VELOCITY_UNITS 70u
-#define VELOCITY_3D_UNITS 140u
-#define GATE_UNITS 12u
-
-/* Number of parts of RHO_MAX_PLOTS plots in which a large scan is claimed, one phase each. */
-static uint32_t num_parts_to_claim_large_scan(const struct rho_look *look)
-{
-    const uint32_t parts = (look->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
-    return !RHO_CLAIMS_BEYOND || parts < 1u ? 1u
-           : parts < RHO_TRACKER_PARTS_MAX  ? parts
-                                            : RHO_TRACKER_PARTS_MAX;
-}
+#include "policy.h"
 
 void rho_work_begin_phase(const struct rho_tracker *tracker, struct rho_work *work,
                           uint32_t divisor)
@@ -50,53 +25,47 @@ void rho_work_begin_phase(const struct rho_tracker *tracker, struct rho_work *wo
 void rho_work_begin_shares(const struct rho_look *look, struct rho_work *work)
 {
     const struct rho_tracker *tracker = look->tracker;
-    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_to_claim_large_scan(look);
+    /* a large scan is claimed in parts of RHO_MAX_PLOTS plots, one phase each */
+    uint32_t parts = (look->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
+    parts = !RHO_CLAIMS_BEYOND || parts < 1u ? 1u : parts;
+    const uint32_t part =
+        RHO_WORK_TRACKS_SHARE * (parts < RHO_TRACKER_PARTS_MAX ? parts : RHO_TRACKER_PARTS_MAX);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting += tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row);
     }
     rho_work_begin_phase(tracker, work, part);
-    work->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
+    work->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_PARTS * waiting) : 0u;
     work->share.waiting = waiting;
-}
-
-static uint32_t units_to_score_plot(const struct rho_look *look, const struct rho_track *track)
-{
-    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        return GATE_UNITS;
-    }
-    uint32_t units = SCORE_UNITS + (look->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
-    if (look->scan->measures & RHO_MEASURES_VELOCITY) {
-        units += look->scan->measures & RHO_MEASURES_Z ? VELOCITY_3D_UNITS : VELOCITY_UNITS;
-    }
-    return units * rho_hypotheses_count(&look->tracker->hypotheses, track->slot);
-}
-
-/*
- * Units of work that the next waiting track may spend: its reserved share, and a part of the rest.
- */
-static uint32_t take_share_of_next_track(struct rho_work *work)
-{
-    struct work_share *share = &work->share;
-    if (share->end == UINT32_MAX) {
-        return UINT32_MAX;
-    }
-    rho_work_release_share(work);
-    const uint32_t used = work->spent + share->kept * (share->waiting + 1u);
-    const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
-    return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
 }
 
 struct plot_choice rho_work_begin_choice(const struct rho_look *look, struct rho_work *work,
                                          const struct rho_track *track)
 {
-    struct plot_choice choice = {.units = units_to_score_plot(look, track)};
-    choice.most = take_share_of_next_track(work) / choice.units;
+    const struct rho_hypotheses *hypotheses = &look->tracker->hypotheses;
+    const uint32_t measures = look->scan->measures;
+    struct work_share *share = &work->share;
+    struct plot_choice choice = {.units = GATE_UNITS};
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        uint32_t units = SCORE_UNITS + (look->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
+        if (measures & RHO_MEASURES_VELOCITY) {
+            units += measures & RHO_MEASURES_Z ? VELOCITY_3D_UNITS : VELOCITY_UNITS;
+        }
+        choice.units = units * rho_hypotheses_count(hypotheses, track->slot);
+    }
+    uint32_t most = UINT32_MAX;
+    if (share->end != UINT32_MAX) { /* the track's reserved share, and a part of the rest */
+        rho_work_release_share(work);
+        const uint32_t used = work->spent + share->kept * (share->waiting + 1u);
+        const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
+        most = share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
+    }
+    choice.most = most / choice.units;
     return choice;
 }
 
 /* Octave of the squared distance between plot and predicted place; 0: nearer than 1 m. */
-static unsigned distance_octave_of_plot(const struct rho_track *track, const struct rho_plot *plot)
+static unsigned distance_octave(const struct rho_track *track, const struct rho_plot *plot)
 {
     const float dx_m = plot->x_m - track->kalman.state[0];
     const float dy_m = plot->y_m - track->kalman.state[1];
@@ -112,7 +81,7 @@ static unsigned distance_octave_of_plot(const struct rho_track *track, const str
 void rho_work_count_plot(struct plot_choice *choice, const struct rho_track *track,
                          const struct rho_plot *plot)
 {
-    choice->in_octave[distance_octave_of_plot(track, plot)]++;
+    choice->in_octave[distance_octave(track, plot)]++;
     choice->num_near++;
 }
 
@@ -135,7 +104,7 @@ int rho_work_take_plot(struct rho_work *work, struct plot_choice *choice,
                        const struct rho_track *track, const struct rho_plot *plot)
 {
     if (choice->is_partial) {
-        const unsigned octave = distance_octave_of_plot(track, plot);
+        const unsigned octave = distance_octave(track, plot);
         if (octave > choice->last || (octave == choice->last && choice->of_last == 0)) {
             return 0;
         }

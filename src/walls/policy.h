@@ -32,7 +32,7 @@
  */
 #define APART_SIGMAS (ERROR_SIGMAS * 2.0f)
 
-/* wall_line_from_track_pairs.c */
+/* wall_pairs.c */
 
 /*
  * Most pairs of tracks that are compared in a step. Half: with many tracks it takes twice as many

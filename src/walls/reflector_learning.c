@@ -10,12 +10,12 @@
 #include "../tracker/mirror_state.h"
 #include "../tracker/sensors.h"
 #include "../tracker/step.h"
-#include "learned_wall_line_arithmetic.h"
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/linalg.h"
+#include "wall_line.h"
 
 enum { MAGIC = 0x52464c4e /* "RFLN" */ };
 
@@ -87,8 +87,8 @@ static int32_t nearest_other_plot(const struct observation *observation,
     for (uint32_t i = 0; i < observation->scan->num_plots; i++) {
         const struct rho_plot *plot = &observation->scan->plots[i];
         const int is_of_target = (int32_t)i == target->plot ||
-                                 (rho_bodies_are_used(observation->tracker) &&
-                                  i < RHO_BODY_PLOTS && groups->of[i] == groups->of[target->plot]);
+                                 (rho_bodies_are_used(observation->tracker) && i < RHO_BODY_PLOTS &&
+                                  groups->of[i] == groups->of[target->plot]);
         if (!is_of_target && rho_measurement_is_valid_plot(plot, observation->scan->measures) &&
             rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
             least = result.distance2;

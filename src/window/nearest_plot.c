@@ -78,9 +78,8 @@ static void count_lookup(struct rho_window_work *work, const struct rho_window_b
         rho_count(work->passed, (uint32_t)(bins->row_last - bins->row_first) + 1u + more_units);
 }
 
-int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *scan,
-                                                const struct rho_window_query *query,
-                                                struct rho_window_work *work)
+int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
+                                 const struct rho_window_query *query, struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, query->x_m, query->y_m, query->vx_mps,
                                                    query->vy_mps, query->gate_radius_m);
@@ -142,16 +141,14 @@ static float squared_sigma_of_code(uint16_t code)
     return sigma * sigma;
 }
 
-struct rho_window_plot_noise_covariance
-rho_window_plot_noise_covariance(const struct rho_window_scan *scan,
-                                 const struct rho_window_plot *plot)
+struct rho_window_plot_noise rho_window_plot_noise(const struct rho_window_scan *scan,
+                                                   const struct rho_window_plot *plot)
 {
     float dx_m = plot->x_m - scan->sensor.x_m, dy_m = plot->y_m - scan->sensor.y_m;
     float ground2_m2 = dx_m * dx_m + dy_m * dy_m;
     float along_m2 = squared_sigma_of_code(plot->sigma_range),
           cross_m2 = squared_sigma_of_code(plot->sigma_cross);
-    struct rho_window_plot_noise_covariance noise = {.zz_m2 =
-                                                         squared_sigma_of_code(plot->sigma_up)};
+    struct rho_window_plot_noise noise = {.zz_m2 = squared_sigma_of_code(plot->sigma_up)};
     if (!(ground2_m2 >= RANGE_LEAST_M2)) {
         noise.xx_m2 = noise.yy_m2 = along_m2 > cross_m2 ? along_m2 : cross_m2;
         return noise;
@@ -186,18 +183,17 @@ int rho_window_compare_range_rate(const struct rho_window_scan *scan,
                       place->vx_mps + place->ax_mps2 * plot->offset_s,
                       place->vy_mps + place->ay_mps2 * plot->offset_s,
                       place->vz_mps};
-    const struct rho_window_plot_noise_covariance *noise = &place->velocity_noise;
+    const struct rho_window_plot_noise *noise = &place->velocity_noise;
     float row[6], rate_mps;
     for (int i = 0; i < 3 && RHO_AMBIGUOUS_RANGE_RATES; i++) {
         state[i + 3] += place->more_mps[i];
     }
-    if (!rho_measurement_predict_range_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
+    if (!rho_measurement_predict_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
         return 0;
     }
     /* derivatives of the range rate by position, and by velocity */
     const float *turn = row, *u = row + 3;
-    seen->error_mps =
-        rho_measurement_range_rate_innovation_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
+    seen->error_mps = rho_measurement_innovation_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     float turned2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
     seen->variance = place->factor * (squared_sigma_of_code(plot->sigma_range_rate) +
                                       turned2 * squared_sigma_of_code(larger_sigma_code(plot))) +
@@ -233,7 +229,7 @@ static float nis_of_plot(const struct rho_window_scan *scan, const struct rho_wi
     if (dx_m * dx_m + dy_m * dy_m > place->gate_radius_m * place->gate_radius_m) {
         return limit;
     }
-    struct rho_window_plot_noise_covariance noise = rho_window_plot_noise_covariance(scan, plot);
+    struct rho_window_plot_noise noise = rho_window_plot_noise(scan, plot);
     float xx = place->noise.xx_m2 + place->factor * noise.xx_m2;
     float xy = place->noise.xy_m2 + place->factor * noise.xy_m2;
     float yy = place->noise.yy_m2 + place->factor * noise.yy_m2;
@@ -253,9 +249,8 @@ static float nis_of_plot(const struct rho_window_scan *scan, const struct rho_wi
     return distance2;
 }
 
-int rho_window_nearest_plot_anisotropic(const struct rho_window_scan *scan,
-                                        const struct rho_window_place *place,
-                                        struct rho_window_work *work)
+int rho_window_nearest_plot(const struct rho_window_scan *scan,
+                            const struct rho_window_place *place, struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, place->x_m, place->y_m, place->vx_mps,
                                                    place->vy_mps, place->gate_radius_m);

@@ -147,9 +147,8 @@ static int is_equal(float a, float b)
     return a <= b && a >= b;
 }
 
-int rho_window_is_next_sector_of_newest_scan(const struct rho_window *window,
-                                             const struct rho_scan *scan,
-                                             const struct rho_sensor *sensor)
+int rho_window_continues_newest(const struct rho_window *window, const struct rho_scan *scan,
+                                const struct rho_sensor *sensor)
 {
     if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
@@ -209,8 +208,7 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
     if (!window || !scan || !left_unused || (scan->num_plots && (!scan->plots || !fates))) {
         return RHO_ERROR_NULL;
     }
-    if (RHO_SECTORS &&
-        !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad)) {
+    if (RHO_SECTORS && !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad)) {
         return RHO_ERROR_VALUE;
     }
     return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
@@ -242,7 +240,7 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     if (status != RHO_OK) {
         return status;
     }
-    window->is_continued = rho_window_is_next_sector_of_newest_scan(window, scan, sensor) != 0;
+    window->is_continued = rho_window_continues_newest(window, scan, sensor) != 0;
     window->is_remeasured = 0;
     if (!window->is_continued) {
         if (window->num_scans == window->scans_max) {

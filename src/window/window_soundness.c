@@ -33,8 +33,8 @@ static int has_sound_bins(const struct rho_window_scan *scan)
 static int is_sound_scan(const struct rho_window_scan *scan)
 {
     if (!rho_is_stored_time(scan->time_us) ||
-        !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
-        !rho_measurement_has_valid_place_and_biases(&scan->sensor) ||
+        !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+        !rho_measurement_is_valid_site(&scan->sensor) ||
         !rho_is_within(scan->sensor.pd, 0.0f, 1.0f) || scan->num_plots > RHO_MAX_PLOTS ||
         scan->num_unused > scan->num_plots || !rho_are_finite(&scan->bin_x0_m, 1) ||
         !rho_are_finite(&scan->bin_y0_m, 1) || !rho_is_within(scan->bins_per_m_x, 0.0f, 1e6f) ||

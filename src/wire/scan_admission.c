@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "policy.h"
-#include "scan_assembler_internal.h"
+#include "scan_internal.h"
 
 enum { SECOND_US = 1000000, SEEN_SCANS = 32 /* scan numbers in source.seen: its bits */ };
 

@@ -5,7 +5,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
-#include "scan_assembler_internal.h"
+#include "scan_internal.h"
 
 enum { MAGIC = 0x66656564, SECOND_US = 1000000, PER_S_MAX = 1000000 };
 
@@ -38,7 +38,7 @@ static int is_usable_sensor(const struct rho_scan_assembler_sensor *known)
            is_sigma_rad_in_limits(noise->sigma_azimuth_rad) &&
            is_sigma_rad_in_limits(noise->sigma_elevation_rad) &&
            is_sigma_rad_in_limits(noise->sigma_rad) &&
-           rho_measurement_has_valid_place_and_biases(&known->sensor);
+           rho_measurement_is_valid_site(&known->sensor);
 }
 
 void rho_scan_assembler_config_default(struct rho_scan_assembler_config *config)

@@ -4,7 +4,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
-#include "scan_assembler_internal.h"
+#include "scan_internal.h"
 
 /* Headings */
 

@@ -2,7 +2,7 @@
 /* scan_slots: the slots in which scans are assembled, and the order in which scans go out. */
 #include <string.h>
 
-#include "scan_assembler_internal.h"
+#include "scan_internal.h"
 
 void rho_scan_increment(uint32_t *counter)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * show_writers: number and writing of the messages of each kind, for
- * show_intermediate_results_at_rates.c. Messages of a step are numbered from 0.
+ * show_rates.c. Messages of a step are numbered from 0.
  */
 #ifndef RHOTRACK_SHOW_WRITERS_H
 #define RHOTRACK_SHOW_WRITERS_H

@@ -35,7 +35,7 @@ section() {
     printf '| Cortex-M4F | mean | worst | ms at %s MHz |\n|---|---|---|---|\n' $((cpu_hz / 1000000))
     printf '%s\n' "${rows[@]}"
     printf '\nThe image takes %s,\nstart-up, Ethernet, IP and stack included.\n\n' \
-        "$(BUILD=$build "$root/tools/firmware/check_flash_and_ram.sh" | tail -1)"
+        "$(BUILD=$build "$root/tools/firmware/check_memory.sh" | tail -1)"
 }
 
 # scene traffic with eight targets and 100 clutter plots a scan: half a side of its area in m,
@@ -76,7 +76,7 @@ check 'no step of these was partial' test "$partial_steps" -eq 0
 section >section
 check 'tools/lab/MEASUREMENTS.md says so' says_the_page load section
 check 'flash and RAM are within the budget' env BUILD="$build" \
-    "$root/tools/firmware/check_flash_and_ram.sh"
+    "$root/tools/firmware/check_memory.sh"
 check "the stack ($stack bytes) is at most $stack_most" test "$stack" -gt 0 -a "$stack" -le \
     "$stack_most"
 finish

@@ -128,7 +128,7 @@ static int32_t count_scans_accepted_of_ten(uint32_t source, int has_code, size_t
 {
     uint8_t bytes[RHO_UDPM_MAX_DATAGRAM];
     int32_t before;
-    node_step_waiting_scans_and_publish();
+    node_step_waiting_scans();
     before = status.scans_accepted;
     for (int i = 0; i < 10; i++) {
         size_t size;
@@ -139,7 +139,7 @@ static int32_t count_scans_accepted_of_ten(uint32_t source, int has_code, size_t
         }
         node_receive(bytes, size, source, now_us);
     }
-    node_step_waiting_scans_and_publish();
+    node_step_waiting_scans();
     return status.scans_accepted - before;
 }
 
@@ -159,7 +159,7 @@ static void datagrams_of_unlisted_addresses_are_refused_and_counted(void **state
     int32_t refused;
     (void)state;
     start_node(sources, 2, NULL);
-    node_step_waiting_scans_and_publish();
+    node_step_waiting_scans();
     refused = status.fragments_refused;
     assert_int_equal(count_scans_accepted_of_ten(STRANGER, 0, SIZE_MAX), 0);
     assert_int_equal(node_sender_filter()->refused_source, 10);

@@ -9,10 +9,10 @@
 
 #include "base/common.h"
 #include "catch_reader_fail.h"
+#include "io/csv/csv_table.h"
 #include "io/csv/local_frame.h"
-#include "io/csv/table_columns_and_cells.h"
-#include "io/scans/bearing_frame_reader.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/bearing_reader.h"
+#include "io/scans/plot_reader.h"
 #include "picture/picture_data.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
@@ -70,20 +70,20 @@ static void check_scan(const struct rho_scan *scan)
 
 static void read_scans(char *path, const struct parameters *parameters, bool keep_going)
 {
-    struct plot_scan_reader *reader = plot_scan_reader_open(&path, 1, parameters, keep_going);
+    struct plot_reader *reader = plot_reader_open(&path, 1, parameters, keep_going);
     const struct rho_scan *scan;
     int64_t before_us = INT64_MIN;
     uint64_t num_scans = 0;
 
-    while ((scan = plot_scan_reader_next(reader))) {
+    while ((scan = plot_reader_next(reader))) {
         abort_unless(scan->time_us >= before_us);
         before_us = scan->time_us;
         num_scans++;
         check_scan(scan);
-        (void)plot_scan_reader_sensor(reader);
+        (void)plot_reader_sensor(reader);
     }
-    abort_unless(num_scans == plot_scan_reader_counts(reader).scans);
-    plot_scan_reader_close(reader);
+    abort_unless(num_scans == plot_reader_counts(reader).scans);
+    plot_reader_close(reader);
 }
 
 static void check_frame(const struct rho_frame *frame)
@@ -103,20 +103,19 @@ static void check_frame(const struct rho_frame *frame)
 
 static void read_frames(char *path, const struct parameters *parameters, bool keep_going)
 {
-    struct bearing_frame_reader *reader =
-        bearing_frame_reader_open(&path, 1, parameters, keep_going);
+    struct bearing_reader *reader = bearing_reader_open(&path, 1, parameters, keep_going);
     const struct rho_frame *frame;
     int64_t before_us = INT64_MIN;
     uint64_t num_frames = 0;
 
-    while ((frame = bearing_frame_reader_next(reader))) {
+    while ((frame = bearing_reader_next(reader))) {
         abort_unless(frame->time_us >= before_us && frame->num_scans <= RHO_MAX_SENSORS);
         before_us = frame->time_us;
         num_frames++;
         check_frame(frame);
     }
-    abort_unless(num_frames == bearing_frame_reader_frames_in_files(reader));
-    bearing_frame_reader_close(reader);
+    abort_unless(num_frames == bearing_reader_num_frames(reader));
+    bearing_reader_close(reader);
 }
 
 static void read_plot_command_data(char *path, const struct parameters *parameters)

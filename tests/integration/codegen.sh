@@ -15,7 +15,7 @@ fresh() {
     mkdir -p "$copy/tree/include/rhotrack" "$copy/tree/src/wire"
     cp -r lcm_types "$copy/tree"
     cp include/rhotrack/message.h "$copy/tree/include/rhotrack"
-    cp src/wire/message_types.c src/wire/message_and_member_names.c "$copy/tree/src/wire"
+    cp src/wire/message_types.c src/wire/message_names.c "$copy/tree/src/wire"
 }
 
 codegen() { # arguments
@@ -58,7 +58,7 @@ stale() { # file
 }
 stale include/rhotrack/message.h
 stale src/wire/message_types.c
-stale src/wire/message_and_member_names.c
+stale src/wire/message_names.c
 
 changed() { # what, sed expression for plot_t.lcm, file that it changes
     fresh
@@ -67,7 +67,7 @@ changed() { # what, sed expression for plot_t.lcm, file that it changes
     expect "$1 changes $3" 1 "$3: not what lcm_types/ says"
 }
 changed "a member's name" 's/snr_db/snr_dB/' lcm_types/README.md
-changed "a member's name" 's/snr_db/snr_dB/' src/wire/message_and_member_names.c
+changed "a member's name" 's/snr_db/snr_dB/' src/wire/message_names.c
 changed "a member's type" 's/float   snr_db/int32_t snr_db/' include/rhotrack/message.h
 changed "a member's range" 's/-1000 \.\. 1000/-1000 .. 1001/' src/wire/message_types.c
 changed 'a comment' 's/east, m/eastwards, m/' include/rhotrack/message.h

@@ -25,7 +25,7 @@ flags='-std=c11 -D_GNU_SOURCE -O1 -g -Iinclude -Isrc/wire -Itests -Itools/rhotra
 build_message() { # codec
     clang $flags -fsanitize=integer -fno-sanitize=unsigned-shift-base -o "$folder/fuzz_message" \
         tests/fuzz/fuzz_message.c "$1" src/wire/message_types.c \
-        src/wire/message_and_member_names.c src/base/status.c
+        src/wire/message_names.c src/base/status.c
 }
 
 wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/catch_reader_fail.c | sort -u |
@@ -144,7 +144,7 @@ tracker_must_find src/tracker/track_life.c 'an end that is not told' \
 tracker_must_find src/step/track_starts.c 'an identity that comes again' \
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
-    's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'
+    's/return rho_search_work_spent\(search\) > search->limit_units;/return 0;/'
 tracker_must_find src/bearings/recent_bearing_frames.c \
     'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
@@ -164,13 +164,13 @@ else
         's/number < text->min \|\| number > text->max/0/'
     seeded fuzz_scene tools/rhotrack/scene/scene_read.c 'a scene whose text is not given back' \
         's/^    free\(text\);$//'
-    seeded fuzz_tables tools/rhotrack/io/csv/row_cells_read_and_check.c \
+    seeded fuzz_tables tools/rhotrack/io/csv/row_cells.c \
         'numbers beyond their limits' \
         's/number < min \|\| number > max/0/'
-    seeded fuzz_tables tools/rhotrack/io/csv/table_columns_and_cells.c \
+    seeded fuzz_tables tools/rhotrack/io/csv/csv_table.c \
         'a table that is not given back' \
         's/free\(table->text\);//'
-    must_pass fuzz_tables tools/rhotrack/io/csv/table_columns_and_cells.c
+    must_pass fuzz_tables tools/rhotrack/io/csv/csv_table.c
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

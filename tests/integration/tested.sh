@@ -22,9 +22,9 @@ forget() { # function, room, files whose tests forget it
         exit 1; }
     cp -R tests "$copy"
 }
-forget rho_angle_are_sector_ends_valid base tests/unit/base/test_angle.c
-forget rho_window_is_next_sector_of_newest_scan window tests/unit/window/test_window.c
+forget rho_angle_is_valid_sector base tests/unit/base/test_angle.c
+forget rho_window_continues_newest window tests/unit/window/test_window.c
 forget rho_tracker_step step tests/unit/*/*.[ch] tests/unit/*.h
-grep -q rho_measurement_is_valid_bearing tests/unit/estimation/*.c # another room's
-forget rho_measurement_is_valid_bearing measurement tests/unit/measurement/*.c
+grep -q rho_bearing_is_valid tests/unit/estimation/*.c # another room's
+forget rho_bearing_is_valid measurement tests/unit/measurement/*.c
 echo 'tested.py sees what it must'

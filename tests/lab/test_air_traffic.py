@@ -14,9 +14,9 @@ lab_test_setup.need_packages("rhotrack")
 import numpy as np
 
 import air_traffic
-from parts import simulated_air_traffic_runs as runs
+from parts import air_traffic_runs as runs
 from common import experiment
-from common import simulate_scene_in_memory
+from common import simulate_scene
 from common import stonesoup_tracker
 
 SEED = 7
@@ -58,9 +58,9 @@ class Traffic(unittest.TestCase):
         self.assertLessEqual(dense["limit"][0]["gospa_m"], dense["tracks"][0]["gospa_m"] + 1)
 
     def test_the_limit_starts_at_so_many_hits(self):
-        run = simulate_scene_in_memory.simulate("air-traffic", SEED, "targets.0.flights=20",
+        run = simulate_scene.simulate("air-traffic", SEED, "targets.0.flights=20",
                                   "clutter.0.plots=0", "duration_s=400")
-        rows = simulate_scene_in_memory.with_fields(run.plots,
+        rows = simulate_scene.with_fields(run.plots,
                                                     ("t_s", "sensor_id", "x_m", "y_m", "scan"))
         for min_scans in (3, 4, 5):
             counts = [len(tracks) for tracks in runs.limit_of(run, rows, min_scans)]

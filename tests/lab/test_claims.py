@@ -12,8 +12,8 @@ import lab_test_setup
 lab_test_setup.need_packages("rhotrack")
 
 import claims
-from parts import compute_claims_figures_outside_experiments
-from parts import read_papers_claims_tables as table
+from parts import claims_figures
+from parts import read_claims as table
 import numpy as np
 
 SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "claims.py"
@@ -128,11 +128,11 @@ class Own(unittest.TestCase):
     def test_crossings_are_counted(self):
         paths = np.array([[[0, 0], [0, 4], [0, 9]], [[2, 2], [2, 1], [2, 9]],
                           [[4, 4], [4, 0], [4, 9]]], float)
-        self.assertEqual(compute_claims_figures_outside_experiments.crossings(paths), 1)
+        self.assertEqual(claims_figures.crossings(paths), 1)
 
     def test_printed_lines_are_as_wrong_as_they_are_told(self):
         """A pair on x = y: alpha is 1, theta printed -pi/4; the line's normal has 3 pi/4."""
-        told = compute_claims_figures_outside_experiments.equation_9()
+        told = claims_figures.equation_9()
         self.assertEqual(told["printed_in_range"], 0)
         self.assertAlmostEqual(told["printed_right"] + told["absolute_right"], 1, places=3)
 

@@ -16,8 +16,8 @@ import numpy as np
 import extended_rivals as rivals
 from common import experiment
 from common import stonesoup_tracker
-from parts import stonesoup_on_clustered_plots
-from parts import texas_instruments_group_tracker
+from parts import stonesoup_clusters
+from parts import ti_group_tracker
 
 STEP_S, VELOCITY_MPS = 0.05, np.array([-20.0, 0.0])
 
@@ -69,21 +69,21 @@ class Followed:
 
 class Groups(Followed, unittest.TestCase):
     def track(self, scans):
-        return texas_instruments_group_tracker.track(scans, rivals.ROAD_GROUPS)[0]
+        return ti_group_tracker.track(scans, rivals.ROAD_GROUPS)[0]
 
     def test_derivatives_are_those_of_what_is_seen(self):
         state = np.array([80.0, -30.0, -12.0, 5.0, 0.5, 0.1])
-        _, derivatives = texas_instruments_group_tracker.seen_from(state, 3)
+        _, derivatives = ti_group_tracker.seen_from(state, 3)
         for i in range(6):
             step = 1e-4 * np.eye(6)[i]
             up, down = (
-                texas_instruments_group_tracker.seen_from(state + sign * step, 3)[0]
+                ti_group_tracker.seen_from(state + sign * step, 3)[0]
                 for sign in (1, -1))
             np.testing.assert_allclose((up - down) / 2e-4, derivatives[:, i], atol=1e-6)
 
     def test_plots_belong_to_their_own_times(self):
         """Plots of half a scan's time ago move a group as if it had been seen then."""
-        tracker = texas_instruments_group_tracker.GroupTracker(rivals.SHIP_GROUPS)
+        tracker = ti_group_tracker.GroupTracker(rivals.SHIP_GROUPS)
         for k in range(40):
             x_m = 5000 + 10.0 * (2.5 * k - 1.25)
             plots = np.array([[x_m - 50, 0.0], [x_m, 0.0], [x_m + 50, 0.0]])
@@ -97,7 +97,7 @@ class Groups(Followed, unittest.TestCase):
         self.assertEqual(tracker.associate(then, np.array([0.0])), [-1])
 
     def test_one_plot_alone_begins_nothing(self):
-        tracker = texas_instruments_group_tracker.GroupTracker(rivals.ROAD_GROUPS)
+        tracker = ti_group_tracker.GroupTracker(rivals.ROAD_GROUPS)
         tracker.step(0.0, np.array([[100.0, 0.0, -20.0]]), np.zeros(1))
         self.assertEqual(tracker.groups, [])
         pair = np.array([[100.0, 0.0, -20.0], [102.0, 0.0, -20.1]])
@@ -113,12 +113,12 @@ class Clusters(unittest.TestCase):
         for least, wanted in ((1, [0, 0, 0, 1, 1, 2]), (2, [0, 0, 0, 1, 1, -1]),
                               (3, [0, 0, 0, -1, -1, -1]), (4, [-1] * 6)):
             np.testing.assert_array_equal(
-                stonesoup_on_clustered_plots.dbscan(points, 1.0, least), wanted)
-        self.assertEqual(len(stonesoup_on_clustered_plots.dbscan(points[:0], 1.0, 1)), 0)
+                stonesoup_clusters.dbscan(points, 1.0, least), wanted)
+        self.assertEqual(len(stonesoup_clusters.dbscan(points[:0], 1.0, 1)), 0)
 
     def test_a_cluster_is_of_one_range_rate(self):
         plots = np.array([[100.0, 0.0, -20.0], [101.0, 0.0, -20.2], [100.5, 0.0, 10.0]])
-        found = stonesoup_on_clustered_plots.clusters(plots, np.array([1.0, 2.0, 4.0]),
+        found = stonesoup_clusters.clusters(plots, np.array([1.0, 2.0, 4.0]),
                                                       rivals.ROAD_GNN)
         self.assertEqual([count for _, _, count in found], [2, 1])
         np.testing.assert_allclose(found[0][0], [100.5, 0, -20.1])
@@ -131,13 +131,13 @@ NO_STONE_SOUP = "no stonesoup (make bench-stonesoup)"
 @unittest.skipUnless(stonesoup_tracker.is_installed(), NO_STONE_SOUP)
 class Gnn(Followed, unittest.TestCase):
     def track(self, scans):
-        return stonesoup_on_clustered_plots.track(scans, rivals.ROAD_GNN, "gnn")[0]
+        return stonesoup_clusters.track(scans, rivals.ROAD_GNN, "gnn")[0]
 
 
 @unittest.skipUnless(stonesoup_tracker.is_installed(), NO_STONE_SOUP)
 class Jpda(Followed, unittest.TestCase):
     def track(self, scans):
-        return stonesoup_on_clustered_plots.track(scans, rivals.ROAD_JPDA, "jpda")[0]
+        return stonesoup_clusters.track(scans, rivals.ROAD_JPDA, "jpda")[0]
 
 
 class Figures(unittest.TestCase):

@@ -13,7 +13,7 @@ lab_test_setup.need_packages("rhotrack")
 
 import false_alarms as alarms
 import numpy as np
-from common import initiation_paper_aircraft_and_plots as paper
+from common import paper_aircraft as paper
 
 SEED = 4711
 SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "false_alarms.py"

@@ -15,12 +15,12 @@ lab_test_setup.need_packages("rhotrack")
 
 import initiation
 import numpy as np
-from common import initiation_paper_aircraft_and_plots as paper
-from common import oracle_by_straight_fit
+from common import paper_aircraft as paper
+from common import oracle_fit
 
 RUNS, SEED = 40, 4711
 SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "initiation.py"
-MODEL = oracle_by_straight_fit.Model(7, 2.0, 10.0, 0.9, 1e7, 100.0, 400.0)
+MODEL = oracle_fit.Model(7, 2.0, 10.0, 0.9, 1e7, 100.0, 400.0)
 
 
 def figures_of(name, runs=RUNS):
@@ -71,7 +71,7 @@ class Oracle(unittest.TestCase):
     def test_a_straight_target_has_the_score_of_its_densities(self):
         """Without residuals: all determinants by hand, for three plots 2 s apart."""
         model = MODEL._replace(scans=3)
-        velocity, score_nat = oracle_by_straight_fit.fit(
+        velocity, score_nat = oracle_fit.fit(
             model, np.array([0.0, 2.0, 4.0]), np.array([[0.0, 0], [400, 300], [800, 600]]),
             np.full(3, 1e-6))
         np.testing.assert_allclose(velocity, [200, 150])
@@ -83,13 +83,13 @@ class Oracle(unittest.TestCase):
     def test_a_plot_beside_the_line_and_a_missed_scan_cost(self):
         t_s, places = 2.0 * np.arange(7), np.outer(2.0 * np.arange(7), [200.0, 0.0])
         density = np.full(7, 1e-6)
-        score_nat = oracle_by_straight_fit.fit(MODEL, t_s, places, density)[1]
+        score_nat = oracle_fit.fit(MODEL, t_s, places, density)[1]
         off = places.copy()
         off[3, 1] = 20.0  # in the middle of seven: 6/7 of its square remain
-        self.assertAlmostEqual(oracle_by_straight_fit.fit(MODEL, t_s, off, density)[1],
+        self.assertAlmostEqual(oracle_fit.fit(MODEL, t_s, off, density)[1],
                                score_nat - 0.5 * (20 / 10)**2 * 6 / 7, 9)
         longer = MODEL._replace(scans=8)
-        self.assertAlmostEqual(oracle_by_straight_fit.fit(longer, t_s, places, density)[1],
+        self.assertAlmostEqual(oracle_fit.fit(longer, t_s, places, density)[1],
                                score_nat + math.log(1 - 0.9), 9)
 
     def test_process_noise_is_that_of_wandering_targets(self):
@@ -98,15 +98,15 @@ class Oracle(unittest.TestCase):
         paths = np.concatenate([paper.wandering([(0, 200, 0, 0)] * 500, 10.0, rng)
                                 for _ in range(20)], axis=1)
         x_m = paths[:, :, 0] - 200 * 2.0 * np.arange(7)[:, None]
-        expected = oracle_by_straight_fit.covariance_m2(model, 2.0 * np.arange(7)) - 100 * np.eye(7)
+        expected = oracle_fit.covariance_m2(model, 2.0 * np.arange(7)) - 100 * np.eye(7)
         np.testing.assert_allclose(np.cov(x_m), expected, rtol=0.06, atol=30)
 
     def test_chi_square_of_its_own_plots_is_that_of_the_model(self):
         """Scores of noise alone are the noise-free score less half of a chi-square of 10."""
         rng, t_s = np.random.default_rng(2), 2.0 * np.arange(7)
         places, density = np.outer(t_s, [200.0, 0.0]), np.full(7, 1e-6)
-        best = oracle_by_straight_fit.fit(MODEL, t_s, places, density)[1]
-        chi2 = [2 * (best - oracle_by_straight_fit.fit(
+        best = oracle_fit.fit(MODEL, t_s, places, density)[1]
+        chi2 = [2 * (best - oracle_fit.fit(
             MODEL, t_s, places + rng.normal(0, 10, (7, 2)), density)[1]) for _ in range(400)]
         self.assertTrue(abs(np.mean(chi2) - 10) < 4 * math.sqrt(20 / 400), np.mean(chi2))
 

@@ -19,14 +19,14 @@ import numpy as np
 
 from common import experiment
 import maneuver
-from parts import maneuver_truth_and_plots
-from parts import maneuver_follow_one_scene
-from common import reference_kalman_and_imm
-from parts.maneuver_truth_and_plots import INTERVAL_S, SCANS, START, Scene, Setting
-from parts.maneuver_follow_one_scene import Method, follow, outcome_of, summary_of
+from parts import maneuver_truth
+from parts import maneuver_follow
+from common import reference_filters
+from parts.maneuver_truth import INTERVAL_S, SCANS, START, Scene, Setting
+from parts.maneuver_follow import Method, follow, outcome_of, summary_of
 
 SEED, RUNS = 4711, 20
-G_MPS2 = maneuver_truth_and_plots.G_MPS2
+G_MPS2 = maneuver_truth.G_MPS2
 QUIET = Setting(noise=0, sigma_m=0, clutter=0, pd=1.0, beam="truth")
 CASES = {case.name: case for case in maneuver.CLOSED_CASES}
 
@@ -47,7 +47,7 @@ class Scenes(unittest.TestCase):
                 ("pop-up", 9.99, 0), ("pop-up", 10, 1), ("pop-up", 14, 0), ("pop-up", 25.99, -1),
                 ("weave", 7.99, 0), ("weave", 8, 1), ("weave", 12, -1), ("weave", 32, 0),
                 ("turn", 13.99, 1), ("turn", 17, -1), ("turn", 36, 0), ("straight", 11, 0)]:
-            self.assertEqual(maneuver_truth_and_plots.side_of(profile, t_s), side, (profile, t_s))
+            self.assertEqual(maneuver_truth.side_of(profile, t_s), side, (profile, t_s))
 
     def test_a_physical_popup_is_its_integral(self):
         truth, t_s = draw(profile="pop-up").truth[0], np.arange(SCANS) * INTERVAL_S
@@ -219,8 +219,8 @@ class References(unittest.TestCase):
         root = self.rng.normal(size=(9, 9))
         self.mean, self.covariance = self.rng.normal(size=(1, 9)), (root @ root.T)[None]
         t = INTERVAL_S
-        self.steady = reference_kalman_and_imm.steady(t, (t * t / 2, t), 2.0)
-        self.singer = reference_kalman_and_imm.singer(t, 0.98, 40.0)
+        self.steady = reference_filters.steady(t, (t * t / 2, t), 2.0)
+        self.singer = reference_filters.singer(t, 0.98, 40.0)
         self.of_axis = [
             (np.array([[1, t, 0], [0, 1, 0], [0, 0, 0]]),
              4.0 * np.outer([t * t / 2, t, 0], [t * t / 2, t, 0])),
@@ -239,8 +239,8 @@ class References(unittest.TestCase):
                 noise = np.diag([25.0] * 3 + [4.0] * 3)[:size, :size]
                 for _ in range(10):
                     z = self.rng.normal(size=(1, size)) * 10
-                    mean, covariance = reference_kalman_and_imm.predict(mean, covariance, model)
-                    mean, covariance, nis, log = reference_kalman_and_imm.update(
+                    mean, covariance = reference_filters.predict(mean, covariance, model)
+                    mean, covariance, nis, log = reference_filters.update(
                         mean, covariance, z, noise[None])
                     expected = 0
                     for i, axis in enumerate(axes):
@@ -251,15 +251,15 @@ class References(unittest.TestCase):
                                                    atol=1e-9)
                     self.assertAlmostEqual(log[0], expected, places=8)
                     self.assertGreater(nis[0], 0)
-        np.testing.assert_array_equal(reference_kalman_and_imm.noisy(1.0, 4.0)[1],
+        np.testing.assert_array_equal(reference_filters.noisy(1.0, 4.0)[1],
                                       np.diag([4.0] * 6 + [0.0] * 3))
-        mean, _ = reference_kalman_and_imm.predict(self.mean, self.covariance, self.steady,
+        mean, _ = reference_filters.predict(self.mean, self.covariance, self.steady,
                                                    np.arange(9.0))
-        without, _ = reference_kalman_and_imm.predict(self.mean, self.covariance, self.steady)
+        without, _ = reference_filters.predict(self.mean, self.covariance, self.steady)
         np.testing.assert_allclose(mean - without, [np.arange(9.0)])
 
     def imm_of(self, models, covariance=None):
-        return reference_kalman_and_imm.Imm(models, 0.97, self.mean,
+        return reference_filters.Imm(models, 0.97, self.mean,
                                  self.covariance if covariance is None else covariance)
 
     def test_two_equal_models_are_one_filter(self):
@@ -268,9 +268,9 @@ class References(unittest.TestCase):
         mean, covariance = self.mean, self.covariance
         for i in range(12):
             z, is_fed = self.rng.normal(size=(1, 3)) * 10, np.array([i % 4 != 3])
-            mean, covariance = reference_kalman_and_imm.predict(mean, covariance, self.singer)
+            mean, covariance = reference_filters.predict(mean, covariance, self.singer)
             if is_fed[0]:
-                mean, covariance, _, _ = reference_kalman_and_imm.update(mean, covariance, z, noise)
+                mean, covariance, _, _ = reference_filters.update(mean, covariance, z, noise)
             for each in (imm, one):
                 each.predict()
                 each.update(z, noise, is_fed)
@@ -312,7 +312,7 @@ class References(unittest.TestCase):
         turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
         all_of = np.kron(np.eye(3), turn)
         imm = self.imm_of([self.steady, self.singer])
-        turned = reference_kalman_and_imm.Imm([self.steady, self.singer], 0.97,
+        turned = reference_filters.Imm([self.steady, self.singer], 0.97,
                                               self.mean @ all_of.T,
                                               all_of @ self.covariance @ all_of.T)
         along = np.diag([15.0**2, 180.0**2, 40.0**2])
@@ -344,7 +344,7 @@ class Tracks(unittest.TestCase):
                                  ("polar 2-D, 10 g, no clutter, .9", 2),
                                  ("polar 3-D, 10 g, no clutter, .9", 3)):
             found = summarise(CASES[name].setting, maneuver.CLAIRVOYANT)
-            looks = RUNS * 0.9 * (SCANS - maneuver_follow_one_scene.JUDGED_SCAN)
+            looks = RUNS * 0.9 * (SCANS - maneuver_follow.JUDGED_SCAN)
             self.assertLess(abs(found["nis_per_dimension"] - 1),
                             4 * math.sqrt(2 / (dimensions * looks)), name)
             self.assertEqual(found["lost"], 0, name)
@@ -431,7 +431,7 @@ class Figures(unittest.TestCase):
     def test_a_trace_becomes_an_outcome(self):
         scene = draw()
         scene.radius_m[:] = 100
-        trace = maneuver_follow_one_scene.Trace(scene)
+        trace = maneuver_follow.Trace(scene)
         trace.off[0, 2, 0], trace.is_wrong[0, 2] = 1e3, True  # before losses count
         found = outcome_of(trace)
         self.assertEqual((found["is_inside"], found["is_lost"], found["wrong"]), (True, False, 0))

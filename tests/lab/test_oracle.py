@@ -14,7 +14,7 @@ lab_test_setup.need_packages()
 import numpy as np
 
 from common import oracle
-from common import read_truth_plots_tracks
+from common import scene_files
 from common import scoring
 
 INI = """# a radar
@@ -55,11 +55,11 @@ def scene(folder, path, misses, scans=40, noise=0.0, seed=1, second=None, dead_f
     (folder / "scenario.ini").write_text(INI)
     (folder / "plots.csv").write_text("\n".join(plots) + "\n")
     (folder / "paths.csv").write_text("\n".join(truth) + "\n")
-    settings = read_truth_plots_tracks.Settings(folder / "scenario.ini")
+    settings = scene_files.Settings(folder / "scenario.ini")
     sensors = settings.sensors()
-    read = read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors, settings.get(
+    read = scene_files.read_plots(folder / "plots.csv", sensors, settings.get(
         "scan_interval_s", 0.0))
-    return sensors, read, read_truth_plots_tracks.read_truth(folder, read.scan_times_us)
+    return sensors, read, scene_files.read_truth(folder, read.scan_times_us)
 
 
 def straight(t):

@@ -13,10 +13,10 @@ import lab_test_setup
 lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
-from common import initiation_paper_aircraft_and_plots as paper
+from common import paper_aircraft as paper
 import papers_initiation as papers
-from parts import papers_initiation_reference_values as known
-from parts import papers_initiation_filtered_track_figures as tracks
+from parts import papers_initiation_values as known
+from parts import papers_initiation_filtered as tracks
 
 RUNS, SEED = 10, 4711
 SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "papers_initiation.py"

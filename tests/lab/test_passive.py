@@ -19,14 +19,14 @@ import lab_test_setup
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: the matrices are small
 lab_test_setup.need_packages("rhotrack")
 
-from parts import passive_scenes_and_references as bearings
+from parts import passive_scenes as bearings
 from common import experiment
 import numpy as np
 import passive
 from parts import passive_chain
-from parts import passive_paper_further_claims
+from parts import passive_further_claims
 from parts import passive_paper_figures
-from parts.passive_scenes_and_references import Scene, Setting
+from parts.passive_scenes import Scene, Setting
 
 SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "passive.py"
 
@@ -369,7 +369,7 @@ class Assignment(unittest.TestCase):
         force."""
         scene = bearings.Scene(bearings.Setting(3, 2, 0.1), np.random.default_rng(11))
         looks = [scene.looks()[0, s]["bearing_rad"].astype(float) for s in range(3)]
-        costs, members = passive_paper_further_claims.tuples_of(looks, 3, np.radians(0.1))
+        costs, members = passive_further_claims.tuples_of(looks, 3, np.radians(0.1))
         self.assertEqual(len(costs), 3**3 - 1 - 3 * 2)
         least = 0.0
         for count in (1, 2, 3):
@@ -377,7 +377,7 @@ class Assignment(unittest.TestCase):
                 used = [(s, members[i][s]) for i in chosen for s in range(3) if members[i][s] >= 0]
                 if len(set(used)) == len(used):
                     least = min(least, costs[list(chosen)].sum())
-        chosen = passive_paper_further_claims.assign(costs, members, looks)
+        chosen = passive_further_claims.assign(costs, members, looks)
         self.assertAlmostEqual(costs[chosen].sum(), least, places=6)
 
     def test_a_tuple_of_one_target_fits(self):
@@ -385,7 +385,7 @@ class Assignment(unittest.TestCase):
         looks = [scene.looks()[0, s]["bearing_rad"].astype(float) for s in range(3)]
         near = scene.start[0, :2] + 500
         self.assertLess(
-            passive_paper_further_claims.cost_of(np.concatenate(looks), bearings.PLACES_M[:3],
+            passive_further_claims.cost_of(np.concatenate(looks), bearings.PLACES_M[:3],
                                                  np.radians(0.001), near), 12)
 
 

@@ -21,7 +21,7 @@ import polar
 from parts import polar_runs
 from parts import polar_references as references
 import rhotrack
-from common import simulate_scene_in_memory
+from common import simulate_scene
 
 RADAR = references.Radar(15.0, 0.003, range_min_m=1000, range_max_m=65000)
 WITH = references.Radar(15.0, 0.003, 1.0, 1000, 65000)
@@ -112,7 +112,7 @@ class Filter(unittest.TestCase):
             for k, plot in enumerate(plots):
                 names = [name for name in ("range_m", "azimuth_rad", "range_rate_mps")
                          if name != "range_rate_mps" or radar.has_range_rate]
-                row = simulate_scene_in_memory.with_fields(
+                row = simulate_scene.with_fields(
                     plots[k:k + 1], ["t_s", *names], sensor_id=1, sigma_range_m=15,
                     sigma_azimuth_rad=0.003, sigma_range_rate_mps=1)
                 if k == 0:
@@ -229,7 +229,7 @@ class Polar(unittest.TestCase):
 
     def test_a_case_tells_the_library_what_it_says(self):
         sky = polar_runs.Sky(
-            simulate_scene_in_memory.simulate("doppler", 7, "clutter.0.plots=300"), 300)
+            simulate_scene.simulate("doppler", 7, "clutter.0.plots=300"), 300)
         for case in (*polar.CASES, *doppler.CASES):
             rows = sky.told(case)[sky.is_plot]
             self.assertEqual("range_rate_mps" in rows.dtype.names, case.has_range_rate)

@@ -143,7 +143,7 @@ class RealSkies(unittest.TestCase):
         self.assertEqual(len(text.splitlines()), 3)
 
     def test_what_drifts(self):
-        from parts import endurance_hour_by_hour
+        from parts import endurance_hours
         flat = {
             "completeness": 0.95, "false_per_scan": 0.01, "switches": 1, "identities": 200,
             "cpu_s": 1, "memory_mb": 20
@@ -153,23 +153,23 @@ class RealSkies(unittest.TestCase):
             "cpu_s": 1.4, "memory_mb": 20.5
         }
         self.assertTrue(
-            all(endurance_hour_by_hour.judged("a", {"false_per_scan": 0.02},
+            all(endurance_hours.judged("a", {"false_per_scan": 0.02},
                                     [[flat, flat]] * 3)["held"].values()))
         for key, value in worse.items():
-            held = endurance_hour_by_hour.judged("a", {"false_per_scan": 0.05},
+            held = endurance_hours.judged("a", {"false_per_scan": 0.05},
                                        [[flat, flat, {**flat, key: value}]] * 3)["held"]
             self.assertEqual([what for what, is_held in held.items() if not is_held],
                              [f"{key} does not drift"])
-        better = endurance_hour_by_hour.judged("a", {}, [[worse, flat]])
+        better = endurance_hours.judged("a", {}, [[worse, flat]])
         self.assertEqual((all(better["held"].values()), "false_per_scan" in better["held"]),
                          (True, False))
         # one run in which it is worse by chance, and a goal that is missed all the time
         self.assertTrue(
-            endurance_hour_by_hour.judged("a", {}, [[flat, {**flat, "switches": 3}],
+            endurance_hours.judged("a", {}, [[flat, {**flat, "switches": 3}],
                                           [flat, {**flat, "switches": 0}]
                                           ])["held"]["switches does not drift"])
         self.assertFalse(
-            endurance_hour_by_hour.judged("a", {"false_per_scan": 0.005},
+            endurance_hours.judged("a", {"false_per_scan": 0.005},
                                 [[flat, flat]])["held"]["false_per_scan"])
 
     def test_what_is_not_there(self):

@@ -14,7 +14,7 @@ import numpy as np
 
 from common import experiment
 import rotating
-from common import simulate_scene_in_memory
+from common import simulate_scene
 
 
 class Rotating(unittest.TestCase):
@@ -43,10 +43,10 @@ class Rotating(unittest.TestCase):
         self.assertLess(at_once["latency_max_ms"], 100)
 
     def test_all_cases_see_the_same_plots(self):
-        run = simulate_scene_in_memory.simulate("rotating", 3)
+        run = simulate_scene.simulate("rotating", 3)
         sectors, turns, at_once = (rotating.scans_of(case, run, 3) for case in rotating.CASES)
         self.assertEqual((len(sectors), len(turns), len(at_once)), (480, 15, 15))
-        count = int(simulate_scene_in_memory.has_plot(run.plots).sum())
+        count = int(simulate_scene.has_plot(run.plots).sum())
         for scans in (sectors, turns, at_once):
             self.assertEqual(sum(len(scan) for scan in scans), count + len(scans))
             for scan in scans:  # the first row is the scan's own

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "scenario_truth_to_plots.h"
+#include "scenario_plots.h"
 
 #define SEED 4711
 #define PI 3.141592653589793
@@ -68,7 +68,7 @@ static struct parameters passive_parameters(double pd)
     struct parameters parameters;
 
     parameters_set_defaults(&parameters);
-    suggest_passive_scenario_parameters(&parameters);
+    suggest_passive_parameters(&parameters);
     parameters_suggest(&parameters, PARAMETER_TRUE_PD, pd);
     return parameters;
 }

@@ -9,7 +9,7 @@ lab_test_setup.need_packages()
 
 import numpy as np
 
-from common import read_truth_plots_tracks
+from common import scene_files
 from common import scoring
 
 GATE = 1000.0
@@ -21,13 +21,13 @@ def truth_of(*places):
     x = np.array([[NAN if cell is None else cell for cell in target] for target in places],
                  dtype=float).T
     place = np.stack([x, np.where(np.isnan(x), NAN, 0.0)], axis=-1)
-    return read_truth_plots_tracks.Truth(
+    return scene_files.Truth(
         np.arange(len(x)) * 1000000, np.arange(x.shape[1]), place, ~np.isnan(x))
 
 
 def tracks_of(scans):
     """A list a scan of (track, x)."""
-    return read_truth_plots_tracks.Tracks(
+    return scene_files.Tracks(
         [np.array([track for track, _ in scan], dtype=int) for scan in scans],
         [np.array([[x, 0.0] for _, x in scan]).reshape(-1, 2) for scan in scans])
 
@@ -116,7 +116,7 @@ class Scoring(unittest.TestCase):
 
 class Consistency(unittest.TestCase):
     def pairs(self, off_m, off_mps, covariance_m2, covariance_m2ps2, motions):
-        more = np.full((len(off_m), len(read_truth_plots_tracks.MORE)), NAN)
+        more = np.full((len(off_m), len(scene_files.MORE)), NAN)
         more[:, 2:5], more[:, 5:8] = covariance_m2, covariance_m2ps2
         return scoring.consistency(np.array(off_m, dtype=float), np.array(off_mps, dtype=float),
                                    more, np.array(motions))
@@ -164,13 +164,13 @@ class Consistency(unittest.TestCase):
                                        [10, 0.2]])[:, None, :]
         self.assertEqual(truth.motions()[:, 0].tolist(), [3, 0, 1, 1, 3, 3])
         more = [np.array([[10, 0, 4, 0, 4, 1, 0, 1, k == 3]], dtype=float) for k in range(6)]
-        tracks = read_truth_plots_tracks.Tracks([np.array([1])] * 6,
+        tracks = scene_files.Tracks([np.array([1])] * 6,
                                     [np.array([[2.0 + k, 0.0]]) for k in range(6)], more)
         figures, _ = scoring.score(truth, tracks, GATE)
         self.assertEqual(
-            [figures["pairs_" + name] for name in read_truth_plots_tracks.MOTIONS], [1, 1, 1])
+            [figures["pairs_" + name] for name in scene_files.MOTIONS], [1, 1, 1])
         self.assertEqual(
-            [figures["rms_m_" + name] for name in read_truth_plots_tracks.MOTIONS], [3, 4, 5])
+            [figures["rms_m_" + name] for name in scene_files.MOTIONS], [3, 4, 5])
         self.assertAlmostEqual(figures["nees_place_turning"], 16 / 4 / 2)
         self.assertAlmostEqual(figures["nees_velocity_turning"], 0.1 ** 2 / 2)
         self.assertEqual(figures["inside_place"],
@@ -185,7 +185,7 @@ class Consistency(unittest.TestCase):
 class Files(unittest.TestCase):
     def test_coverage_is_range_and_sector(self):
         # 0.28 rad about -x
-        sensor = read_truth_plots_tracks.Sensor(1000, 0, 100, 5000, 3.0, -3.0, 30, 0.003)
+        sensor = scene_files.Sensor(1000, 0, 100, 5000, 3.0, -3.0, 30, 0.003)
         x, y = np.array([-3000, -3000, -4001, 901, 0, NAN]), np.array([0, 1000, 0, 0, 0, 0])
         self.assertEqual(sensor.covers(x, y).tolist(), [True, False, False, False, True, False])
 

@@ -14,7 +14,7 @@ lab_test_setup.need_packages()
 
 import numpy as np
 
-from common import read_truth_plots_tracks
+from common import scene_files
 import several_radars
 
 PROGRAM = os.environ.get("RHOTRACK", str(lab_test_setup.ROOT / "build" / "rhotrack"))
@@ -28,15 +28,15 @@ class SeveralRadars(unittest.TestCase):
         place = np.zeros((4, 2, 2))
         place[:, 1, 0] = 5000.0
         visible = np.array([[True, False], [True, True], [True, True], [True, True]])
-        truth = read_truth_plots_tracks.Truth(np.arange(4) * 2000000, np.arange(2), place, visible)
+        truth = scene_files.Truth(np.arange(4) * 2000000, np.arange(2), place, visible)
         scans = [[], [(1, 100.0)], [(1, 100.0), (2, 300.0), (3, 9000.0)], [(1, 0.0), (4, 5000.0)]]
-        tracks = read_truth_plots_tracks.Tracks(
+        tracks = scene_files.Tracks(
             [np.array([track for track, _ in scan], dtype=int) for scan in scans],
             [np.array([[x_m, 0.0] for _, x_m in scan]).reshape(-1, 2) for scan in scans])
         delays_s, pairs, duplicates = several_radars.follow(truth, tracks, 1000.0)
         self.assertEqual(delays_s.tolist(), [2.0, 4.0])
         self.assertEqual((pairs, duplicates), (4, 1))
-        nothing = read_truth_plots_tracks.Tracks([np.empty(0, dtype=int)] * 4,
+        nothing = scene_files.Tracks([np.empty(0, dtype=int)] * 4,
                                                  [np.empty((0, 2))] * 4)
         never, _, _ = several_radars.follow(truth, nothing, 1000.0)
         self.assertTrue(np.isinf(never).all())

@@ -13,7 +13,7 @@ lab_test_setup.need_packages("rhotrack")
 import numpy as np
 
 from common import experiment
-from common import simulate_scene_in_memory
+from common import simulate_scene
 import two_radars
 
 
@@ -46,7 +46,7 @@ class TwoRadars(unittest.TestCase):
         self.assertTrue(0 < told["azimuth_bias_rad"]["worst"] < np.radians(0.016))
 
     def test_a_case_tells_what_it_says(self):
-        run = simulate_scene_in_memory.simulate(
+        run = simulate_scene.simulate(
             "two-radars", 5, "duration_s=60", also=lambda folder: {
                 1: {"range_bias_m": 40.0, "azimuth_bias_rad": 0.001},
                 2: {"range_bias_m": None, "azimuth_bias_rad": -0.002, "time_bias_s": 0.25}})

@@ -55,7 +55,7 @@ static inline void assert_finite_with_variances_in_limits(const struct rho_kalma
 
         assert_true(isfinite(kalman->state[i]));
         assert_true(variance == 0.0f ||
-                    (variance >= RHO_KALMAN_VARIANCE_MIN && variance <= RHO_KALMAN_VARIANCE_MAX));
+                    (variance >= RHO_VARIANCE_MIN && variance <= RHO_VARIANCE_MAX));
     }
     for (int i = 0; i < PACKED; ++i) {
         assert_true(isfinite(kalman->covariance[i]));

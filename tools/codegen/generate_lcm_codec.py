@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Writes the LCM codec of rhotrack from lcm_types/*.lcm: message.h, message_types.c,
-message_and_member_names.c, and the table in lcm_types/README.md.
+message_names.c, and the table in lcm_types/README.md.
 
 Usage: generate_lcm_codec.py [--check] [ROOT]
 --check writes nothing, and names each file that differs from what would be written; exit 1 where
@@ -11,7 +11,7 @@ import pathlib
 import sys
 import textwrap
 
-import emit_c_message_codec
+import emit_codec
 import parse_lcm_types
 
 BEGIN, END = "<!-- made by tools/codegen -->", "<!-- end -->"
@@ -55,11 +55,11 @@ def main():
     known = parse_lcm_types.read_structs(root / "lcm_types")
     if not known:
         sys.exit(f"{root / 'lcm_types'}: no .lcm files")
-    emit_c_message_codec.check_sizes(known)
+    emit_codec.check_sizes(known)
     files = {
-        root / "include/rhotrack/message.h": emit_c_message_codec.header_text(known),
-        root / "src/wire/message_types.c": emit_c_message_codec.source_text(known),
-        root / "src/wire/message_and_member_names.c": emit_c_message_codec.names_source_text(known),
+        root / "include/rhotrack/message.h": emit_codec.header_text(known),
+        root / "src/wire/message_types.c": emit_codec.source_text(known),
+        root / "src/wire/message_names.c": emit_codec.names_source_text(known),
         root / "lcm_types/README.md": readme_with_new_table(root / "lcm_types/README.md", known),
     }
     stale = [path for path, text in files.items()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sphinx's configuration; `make docs` has laid out the pages (lay_out_sphinx_sources.py)."""
+"""Sphinx's configuration; `make docs` has laid out the pages (sphinx_sources.py)."""
 import re
 from pathlib import Path
 

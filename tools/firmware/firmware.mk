@@ -30,7 +30,7 @@ memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
 firmware_scripts := $(wildcard $(board)/mps2/*.ld) $(firmware_folder)/firmware.mk
 firmware_node := $(firmware_folder)/lcm_datagram_node.c \
-                 $(firmware_folder)/node_initiation_by_library.c
+                 $(firmware_folder)/initiation_by_library.c
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/radar_node_main.c \
                  $(board)/udp_frame.c $(board)/memory.c \
                  $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
@@ -55,7 +55,7 @@ firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf \
 ## Build the firmware example for Cortex-M4F and M7: a radar node, and the node on records
 ## (build/firmware)
 firmware: $(firmware_images) $(node_images)
-	@BUILD=$(BUILD) $(firmware_folder)/check_flash_and_ram.sh
+	@BUILD=$(BUILD) $(firmware_folder)/check_memory.sh
 
 ## Run these images in QEMU: the same bytes as everywhere, LCM over their Ethernet, load; ends with
 ## `N passed, N failed`
@@ -93,7 +93,7 @@ $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 # --- configurations of nodes/: build/firmware/CORE/nodes/NAME.elf; their worst scans: worst/ ------
 
 worst_sources := $(library_sources) tools/instructions/worst_step_search.c \
-                 $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout_to_debugger.c)
+                 $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout.c)
 
 # How tracks of a node start (node_initiation.h).
 starts_of = $(firmware_folder)/node_initiation_by_$(if $(filter paper,$(1)),papers,library).c
@@ -137,7 +137,7 @@ worst: $(worst_images)
 # --- jobs of tools/instructions: build/firmware/CORE/jobs/NAME.elf ---------------------------
 
 job_sources := $(sort $(wildcard tools/instructions/*.c))
-job_parts := $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout_to_debugger.c)
+job_parts := $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout.c)
 job_names := $(filter-out hough worst_step_search,$(basename $(notdir $(job_sources))))
 job_images := $(foreach core,m4 m7,$(job_names:%=$(firmware)/$(core)/jobs/%.elf))
 job_flags := $(firmware_flags) -DCOUNT_ON_TARGET -O2

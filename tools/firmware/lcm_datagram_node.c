@@ -70,7 +70,7 @@ static void add_saturating(int32_t *counter, uint32_t more)
     *counter = more < (uint32_t)(INT32_MAX - *counter) ? *counter + (int32_t)more : INT32_MAX;
 }
 
-static void publish_status_work_and_learned(void)
+static void publish_status(void)
 {
     struct rho_message_status state;
     struct rho_message_work work;
@@ -196,7 +196,7 @@ void node_tick(int64_t now_us)
     step_all_due(now_us);
     if (now_us >= status_due_us) {
         status_due_us = now_us + STATUS_INTERVAL_US;
-        publish_status_work_and_learned();
+        publish_status();
     }
 }
 
@@ -206,11 +206,11 @@ int64_t node_due_us(void)
     return due_us < status_due_us ? due_us : status_due_us;
 }
 
-void node_step_waiting_scans_and_publish(void)
+void node_step_waiting_scans(void)
 {
     if (is_started) {
         step_all_due(INT64_MAX);
-        publish_status_work_and_learned();
+        publish_status();
     }
 }
 
@@ -244,7 +244,7 @@ static enum rho_status init_library_node(void)
         status = rho_frames_init(&frames, sizeof frames, &gather);
         config.frames = &frames;
     }
-    track_starts_configure_bearings(&config);
+    track_starts_set_bearings(&config);
     return status == RHO_OK ? rho_node_init(&node, sizeof node, &config) : status;
 }
 

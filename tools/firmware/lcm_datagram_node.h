@@ -87,6 +87,6 @@ void node_tick(int64_t now_us);
 int64_t node_due_us(void);
 
 /* End of a recording: steps all scans that are still held, and sends the status. */
-void node_step_waiting_scans_and_publish(void);
+void node_step_waiting_scans(void);
 
 #endif

@@ -2,8 +2,8 @@
 /*
  * node_initiation: how the node starts tracks. A node is linked with one of
  *
- *     node_initiation_by_library.c    the library's initiator, for bearings its passive search
- *     node_initiation_by_papers.c     the papers' methods: Hough transforms of plots and bearings
+ *     initiation_by_library.c    the library's initiator, for bearings its passive search
+ *     initiation_by_papers.c     the papers' methods: Hough transforms of plots and bearings
  *
  * which firmware.mk chooses by the node's configuration.
  */
@@ -23,7 +23,7 @@
 RHO_MUST_CHECK enum rho_status track_starts_init(const struct node_config *config);
 
 /* Sets in the node's config how frames of bearings start tracks. */
-void track_starts_configure_bearings(struct rho_node_config *config);
+void track_starts_set_bearings(struct rho_node_config *config);
 
 /* Calls rho_node_step, and starts tracks from its scan or frame. */
 RHO_MUST_CHECK enum rho_status node_step_and_start_tracks(struct rho_node *node);

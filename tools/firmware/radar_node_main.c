@@ -94,7 +94,7 @@ int main(void)
             print_grown_counters();
         }
         if (size == 0) {
-            board_sleep_until_event_or_time(node_due_us());
+            board_sleep_until(node_due_us());
         }
     }
 }

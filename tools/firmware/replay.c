@@ -266,7 +266,7 @@ int main(int argc, char **argv)
     while ((size = read_event_as_datagram(input, datagram)) > 0) {
         receive_and_count_instructions(datagram, size);
     }
-    node_step_waiting_scans_and_publish();
+    node_step_waiting_scans();
     has_failed |= !files_try_to_close(output);
     print_tally();
     return has_failed;

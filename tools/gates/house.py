@@ -16,7 +16,7 @@ import re
 import sys
 
 GENERATED = {
-    "src/wire/message_types.c", "src/wire/message_and_member_names.c", "include/rhotrack/message.h"
+    "src/wire/message_types.c", "src/wire/message_names.c", "include/rhotrack/message.h"
 }
 NAME_LETTERS_MAX = 30
 STEM_WORDS = 4

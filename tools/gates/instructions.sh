@@ -16,7 +16,7 @@ trap 'rm -rf "$folder"' EXIT
 
 # ---- programs -------------------------------------------------------------------------------
 
-for job in filters one_track_by_single_plot_gate tracker one_track_by_hypotheses initiation \
+for job in filters one_track_gate tracker one_track_hypotheses initiation \
     passive wire zone_counts_step; do
     ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/$job" \
         "tools/instructions/$job.c" \
@@ -98,9 +98,9 @@ print_counts 'Kalman + input + Hough gate, 4 clutter plots' 1 5000 filters input
 
 print_head 'a track by itself, a scan: prediction, gate over 4 plots, update'
 print_counts 'nearest: polar plots with range rate' 1 7000 \
-    one_track_by_single_plot_gate nearest polar 4
+    one_track_gate nearest polar 4
 print_counts 'hough behind nearest, input estimation: places and velocities' 1 - \
-    one_track_by_single_plot_gate hough cartesian 4
+    one_track_gate hough cartesian 4
 
 print_head 'the whole tracker with 8 tracks, a track and scan (no initiation)'
 print_counts 'nearest: polar plots with range rate, 4 in the gate' 8 - tracker nearest polar 4 1
@@ -115,12 +115,12 @@ print_counts 'the turn at once' 1 - tracker best polar 4 1
 print_counts 'a sector of 32' 1 - tracker best polar 4 32
 
 print_head 'the default, hypotheses over imm, a track and scan: places in 3-D'
-print_counts 'isotropic noise, the target alone' 1 - one_track_by_hypotheses 1 0
-print_counts 'isotropic noise, 4 in the gate' 1 30000 one_track_by_hypotheses 4 0
-print_counts 'isotropic noise, 10 in the gate' 1 60000 one_track_by_hypotheses 10 0
-print_counts 'noise of its own, the target alone' 1 - one_track_by_hypotheses 1 1
-print_counts 'noise of its own, 4 in the gate' 1 - one_track_by_hypotheses 4 1
-print_counts 'noise of its own, 10 in the gate' 1 - one_track_by_hypotheses 10 1
+print_counts 'isotropic noise, the target alone' 1 - one_track_hypotheses 1 0
+print_counts 'isotropic noise, 4 in the gate' 1 30000 one_track_hypotheses 4 0
+print_counts 'isotropic noise, 10 in the gate' 1 60000 one_track_hypotheses 10 0
+print_counts 'noise of its own, the target alone' 1 - one_track_hypotheses 1 1
+print_counts 'noise of its own, 4 in the gate' 1 - one_track_hypotheses 4 1
+print_counts 'noise of its own, 10 in the gate' 1 - one_track_hypotheses 10 1
 
 print_head 'initiation, window of 7 scans of 4 x 2.5 km, 3 targets'
 for clutter in 0 10 100; do

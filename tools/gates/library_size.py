@@ -21,7 +21,7 @@ import re
 import sys
 import textwrap
 
-import cross_compile_for_gates as cross
+import cross_compile as cross
 import layers
 import stack
 
@@ -48,12 +48,12 @@ ROWS = [
     ("papers: HT, MHT, IHT, NHT, likewise",
      "papers/hough* papers/votes_picture step/paper_starts", "hough"),
     ("papers: passive Hough transform, likewise", "papers/passive_paper*", "passive_paper"),
-    ("papers: Hough gate, likewise", "papers/velocity_hough_gate_of_track", ""),
+    ("papers: Hough gate, likewise", "papers/velocity_gate", ""),
     ("snapshot, and the validation of images, likewise", IMAGES, ""),
     ("wire: message, publish, udpm",
-     "wire/message* wire/publish* wire/udpm* -wire/message_and_member_names", ""),
+     "wire/message* wire/publish* wire/udpm* -wire/message_names", ""),
     ("node: messages in, steps, messages out, likewise", "wire/node", "node"),
-    ("names of messages and their fields, likewise", "wire/message_and_member_names", ""),
+    ("names of messages and their fields, likewise", "wire/message_names", ""),
     ("scan assembly from messages, two scans open at a time, likewise", "wire/scan_*",
      "scan_assembler"),
     ("what a step thought, as messages (show), likewise", "wire/show*", "show"),
@@ -66,7 +66,7 @@ AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
      "base/* measurement/* estimation/* association/* window/* initiation/* tracker/* bodies/* "
      "step/* settings/* wire/* -measurement/bearing_crossing -step/bearing_* -step/paper_starts "
-     "-*_soundness -settings/snapshot -wire/message_and_member_names -wire/show*",
+     "-*_soundness -settings/snapshot -wire/message_names -wire/show*",
      96 * 1024, "initiator tracker scan_assembler report", 176 * 1024, 4096),
 ]
 

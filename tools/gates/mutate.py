@@ -54,7 +54,7 @@ ALIKE = {
 }
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c",
-    "src/wire/message_and_member_names.c"
+    "src/wire/message_names.c"
 }
 ROW = re.compile(r"\b(?P<name>(?:plot|row|claim|opened|claims\[\w+\])) >= (?P<number>0)\b")
 NOTICED_MIN = 0.9

@@ -5,7 +5,7 @@
 Forbidden on each target at -Os: external symbols other than memcpy, memset, memmove, memcmp and the
 compiler's arithmetic on integers and single precision (CHARGES of stack.py); mutable globals;
 frames of variable size; calls by a pointer; recursion. The last three are also checked at -O0, as
--Os can turn a recursion into a loop. tools/gates/library_needs_no_heap_or_stdio.sh checks the
+-Os can turn a recursion into a loop. tools/gates/no_heap.sh checks the
 sources and this machine's objects.
 
 Usage: object_restrictions.py [--target m0plus,m4f,m7,r5f,rv32] [ROOT]. Prints FILE:LINE: function:
@@ -15,7 +15,7 @@ import argparse
 import re
 import sys
 
-import cross_compile_for_gates as cross
+import cross_compile as cross
 import stack
 
 LIBM = (

@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
 sys.dont_write_bytecode = True
 
-from parts import read_papers_claims_tables as table
+from parts import read_claims as table
 
 VERDICT = re.compile(r"\*\*(holds|fails|cannot be known|definition|not measured)\*\*")
 

@@ -20,7 +20,7 @@ import pathlib
 import re
 import sys
 
-import cross_compile_for_gates as cross
+import cross_compile as cross
 
 # (function, bytes, bytes on SMALL targets) charged to functions of other libraries: upper bounds
 # for newlib, picolibc and libgcc of Debian 12. SMALL targets need many calls for 64-bit arithmetic.

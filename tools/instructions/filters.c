@@ -56,7 +56,7 @@ static void predict_and_update_elements(int num_elements)
     }
 }
 
-static void predict_and_update_by_polar_plot(void)
+static void step_by_polar_plot(void)
 {
     note_failure_unless_ok(rho_kalman_predict(&kalman, 1.0f, 1.0f));
     note_failure_unless_ok(rho_kalman_update_position(&kalman, &measurement, 1e4f));
@@ -70,11 +70,11 @@ static struct rho_input input;
 static float before_mps[3], newest_mps[3];
 static float seen[PLOTS][RHO_KALMAN_STATES];
 
-static void estimate_state_and_keep_last_two_velocities(void)
+static void estimate_state(void)
 {
     struct rho_kalman estimate;
-    rho_input_test_and_end_inputs(&input, &config);
-    rho_input_get_corrected_estimate(&input, &estimate);
+    rho_input_decide(&input, &config);
+    rho_input_estimate(&input, &estimate);
     memcpy(before_mps, newest_mps, sizeof before_mps);
     memcpy(newest_mps, &estimate.state[3], sizeof newest_mps);
 }
@@ -82,12 +82,11 @@ static void estimate_state_and_keep_last_two_velocities(void)
 static void update_input_filter_by_plot(const float plot[RHO_KALMAN_STATES])
 {
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        note_failure_unless_ok(
-            rho_input_update_filter_by_element(&input, &config, i, plot[i], 1.0f));
+        note_failure_unless_ok(rho_input_update_element(&input, &config, i, plot[i], 1.0f));
     }
 }
 
-static void step_input_filter_by_hough_gate(void)
+static void step_input_filter(void)
 {
     struct rho_gate_hough hough;
     int best = 0;
@@ -95,20 +94,20 @@ static void step_input_filter_by_hough_gate(void)
     note_failure_unless_ok(
         rho_gate_hough_init(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
                             0.0872664626f, before_mps, newest_mps));
-    float least = rho_gate_hough_velocity_distance_from_lines_mps(&hough, &seen[0][3]);
+    float least = rho_gate_hough_distance_mps(&hough, &seen[0][3]);
     for (int i = 1; i < PLOTS; i++) {
-        float off = rho_gate_hough_velocity_distance_from_lines_mps(&hough, &seen[i][3]);
+        float off = rho_gate_hough_distance_mps(&hough, &seen[i][3]);
         if (off < least) {
             least = off;
             best = i;
         }
     }
     update_input_filter_by_plot(seen[best]);
-    estimate_state_and_keep_last_two_velocities();
+    estimate_state();
 }
 
 /* Starts the filter with three scans; the last begins a turn, so that all axes have an input. */
-static void start_input_filter_of_turning_target(void)
+static void start_input_filter(void)
 {
     rho_input_config_default(&config);
     rho_kalman_init(&kalman);
@@ -127,7 +126,7 @@ static void start_input_filter_of_turning_target(void)
         if (scan < 4) {
             note_failure_unless_ok(rho_input_predict(&input, &config, 0.25f));
             update_input_filter_by_plot(seen[0]);
-            estimate_state_and_keep_last_two_velocities();
+            estimate_state();
         }
     }
     failed |= input.present != 7;
@@ -138,21 +137,21 @@ static void start_input_filter_of_turning_target(void)
 static void prepare_filter_of_job(const char *job)
 {
     if (strcmp(job, "input+hough") == 0) {
-        start_input_filter_of_turning_target();
+        start_input_filter();
         return;
     }
     prepare_filter_and_measurement(100.0f);
     if (strcmp(job, "coupled+6") == 0) {
-        predict_and_update_by_polar_plot();
+        step_by_polar_plot();
     }
 }
 
 __attribute__((noinline)) static void run_step_of_job(const char *job)
 {
     if (strcmp(job, "input+hough") == 0) {
-        step_input_filter_by_hough_gate();
+        step_input_filter();
     } else if (strcmp(job, "predict+polar") == 0) {
-        predict_and_update_by_polar_plot();
+        step_by_polar_plot();
     } else {
         predict_and_update_elements(job[strlen(job) - 1] - '0');
     }

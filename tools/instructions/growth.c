@@ -23,7 +23,7 @@ static struct rho_initiator initiator;
 static struct rho_report report;
 static struct rho_plot plots[RHO_MAX_PLOTS];
 
-static int failed_to_init_tracker_initiator_and_sensor(float v_min_mps, float v_max_mps)
+static int init_failed(float v_min_mps, float v_max_mps)
 {
     static const struct rho_sensor sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 400e3f};
     struct rho_tracker_config config;
@@ -44,8 +44,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "growth: give 1 .. %d plots, v_min and v_max in m/s\n", RHO_MAX_PLOTS);
         return 2;
     }
-    int failed =
-        failed_to_init_tracker_initiator_and_sensor((float)atof(argv[2]), (float)atof(argv[3]));
+    int failed = init_failed((float)atof(argv[2]), (float)atof(argv[3]));
     for (int k = 0; k < START_STEPS + STEPS && !failed; k++) {
         for (int i = 0; i < count; i++) {
             plots[i] = (struct rho_plot){.x_m = draw_uniform(-0.5f * SIDE_M, 0.5f * SIDE_M),

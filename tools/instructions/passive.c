@@ -70,7 +70,7 @@ static struct rho_frame draw_frame(int frame, int num_targets, int num_false)
     return (struct rho_frame){.time_us = time_us, .num_scans = SENSORS, .scans = scans};
 }
 
-static int fill_bearing_batch_and_tell_if_failed(int num_targets, int num_false)
+static int fill_bearing_batch(int num_targets, int num_false)
 {
     struct rho_passive_config config;
     uint8_t fates[SENSORS * RHO_MAX_BEARINGS];
@@ -96,7 +96,7 @@ int main(int argc, char **argv)
         return 2;
     }
     for (int i = 0; i < batches && !failed; i++) {
-        failed = fill_bearing_batch_and_tell_if_failed(num_targets, atoi(argv[2]));
+        failed = fill_bearing_batch(num_targets, atoi(argv[2]));
         count_begin();
         failed |= rho_passive_search(&passive) != RHO_OK;
         count_end();

@@ -44,8 +44,7 @@ static float draw_normal_or_clutter_offset(int is_clutter, float sigma)
                       : draw_normal(sigma);
 }
 
-static struct rho_plot draw_polar_plot_of_or_beside_target(const struct target *target,
-                                                           int is_clutter)
+static struct rho_plot draw_polar_plot(const struct target *target, int is_clutter)
 {
     float range_m = rho_sqrt(target->x_m * target->x_m + target->y_m * target->y_m);
     struct rho_polar_plot polar = {
@@ -79,11 +78,10 @@ static struct rho_plot draw_cartesian_plot(const struct target *target, int is_c
 
 static struct rho_plot draw_plot(const struct target *target, int is_polar, int is_clutter)
 {
-    return is_polar ? draw_polar_plot_of_or_beside_target(target, is_clutter)
-                    : draw_cartesian_plot(target, is_clutter);
+    return is_polar ? draw_polar_plot(target, is_clutter) : draw_cartesian_plot(target, is_clutter);
 }
 
-static uint32_t quantities_measured_besides_position(int is_polar)
+static uint32_t measured_quantities_of(int is_polar)
 {
     return is_polar ? RHO_MEASURES_RANGE_RATE : RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
 }

@@ -36,12 +36,12 @@ static struct rho_scan draw_scan_of_turn(int turn, int is_polar, int plots_a_tar
     }
     return (struct rho_scan){.time_us = (int64_t)(1e6f * INTERVAL_S) * turn,
                              .sensor_id = sensor.sensor_id,
-                             .measures = quantities_measured_besides_position(is_polar),
+                             .measures = measured_quantities_of(is_polar),
                              .num_plots = (uint32_t)(TARGETS * plots_a_target),
                              .plots = plots};
 }
 
-static int open_tracker_and_tell_if_failed(const char *gate)
+static int open_tracker(const char *gate)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
@@ -100,7 +100,7 @@ int main(int argc, char **argv)
                 EACH_MAX, SECTORS_MAX);
         return 2;
     }
-    failed = open_tracker_and_tell_if_failed(argv[1]);
+    failed = open_tracker(argv[1]);
     for (int turn = 0; turn < START_TURNS + TURNS && !failed; turn++) {
         int is_start = turn < START_TURNS;
         struct rho_scan whole =

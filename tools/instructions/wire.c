@@ -47,7 +47,7 @@ static void encode_track_report(void)
     status = rho_publish_tracks(&report, 1, 1, 0, bytes, sizeof bytes, &size);
 }
 
-static void fill_messages_and_open_assembler(void)
+static void fill_messages(void)
 {
     struct rho_scan_assembler_config config;
 
@@ -80,7 +80,7 @@ int main(int argc, char **argv)
                 {"take", assemble_scan_from_message},
                 {"publish", encode_track_report}};
 
-    fill_messages_and_open_assembler();
+    fill_messages();
     encode_scan();
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
         if (argc == 2 && status == RHO_OK && strcmp(argv[1], jobs[i].name) == 0) {

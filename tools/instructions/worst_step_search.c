@@ -116,7 +116,7 @@ static struct place target_at(const struct sky *sky, unsigned target, float t_s)
     return at;
 }
 
-static uint32_t quantities_measured_besides_position(const struct sky *sky)
+static uint32_t measured_quantities_of(const struct sky *sky)
 {
     const unsigned of = gene_as_whole_number(sky, MEASURES);
     return (of & 1u ? RHO_MEASURES_RANGE_RATE : 0u) | (of & 2u ? RHO_MEASURES_Z : 0u) |
@@ -217,7 +217,7 @@ static unsigned add_clutter_after_target_plots(const struct sky *sky, unsigned n
 
 /* ---- the cost of a sky ----------------------------------------------------------------------- */
 
-static int try_open_node_tracker_with_sensors_of_sky(const struct sky *sky)
+static int open_tracker_of_sky(const struct sky *sky)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
@@ -242,7 +242,7 @@ static int try_open_node_tracker_with_sensors_of_sky(const struct sky *sky)
     return is_open;
 }
 
-static uint32_t step_tracker_counting_instructions(const struct rho_scan *scan)
+static uint32_t count_step_instructions(const struct rho_scan *scan)
 {
     const uint32_t from = count_instructions_now();
     count_begin();
@@ -258,18 +258,18 @@ static void measure_worst_step_of_sky(struct sky *sky)
     const float middle_s = 0.5f * SCANS * interval_s;
     sky->instructions = sky->work = 0;
     draw_state = 1u + 7919u * sky->genes[DRAW];
-    failed |= !try_open_node_tracker_with_sensors_of_sky(sky);
+    failed |= !open_tracker_of_sky(sky);
     for (unsigned i = 0; i < SCANS && !failed; i++) {
         const float t_s = interval_s * (float)i - middle_s;
         const unsigned targets = add_target_plots(sky, t_s);
         const struct rho_scan scan = {
             .time_us = (int64_t)(1e6f * interval_s) * i,
             .sensor_id = (int32_t)(i % gene_as_whole_number(sky, SENSORS)) + 1,
-            .measures = quantities_measured_besides_position(sky),
+            .measures = measured_quantities_of(sky),
             .num_plots = add_clutter_after_target_plots(sky, targets, i, t_s, interval_s),
             .plots = plots,
         };
-        const uint32_t instructions = step_tracker_counting_instructions(&scan);
+        const uint32_t instructions = count_step_instructions(&scan);
         if (instructions > sky->instructions) {
             sky->instructions = instructions;
             sky->work = tracker.work.work;
@@ -323,7 +323,7 @@ static void draw_child_with_mutated_genes(struct sky *child, const struct sky *p
     }
 }
 
-static struct sky *parent_sky_of_fewest_instructions(struct sky *parents)
+static struct sky *cheapest_parent_sky(struct sky *parents)
 {
     struct sky *least = parents;
     for (unsigned i = 1; i < PARENTS; i++) {
@@ -337,7 +337,7 @@ static void search_for_worst_sky(unsigned num_skies)
     static struct sky parents[PARENTS];
     uint32_t worst = 0;
     for (unsigned n = 0; n < num_skies && !failed; n++) {
-        struct sky child, *least = parent_sky_of_fewest_instructions(parents);
+        struct sky child, *least = cheapest_parent_sky(parents);
         if (n < FIRST_SKIES) {
             draw_genes(&child);
         } else {

@@ -15,7 +15,7 @@
 static struct rho_zones zones;
 static struct rho_report report;
 
-static int open_lane_zones_and_tell_if_failed(void)
+static int open_lane_zones(void)
 {
     int failed = rho_zones_init(&zones, sizeof zones) != RHO_OK;
     for (int i = 0; i < ZONES; i++) {
@@ -48,7 +48,7 @@ static void move_tracks_by_50_ms(void)
 
 int main(void)
 {
-    int failed = open_lane_zones_and_tell_if_failed();
+    int failed = open_lane_zones();
     report.num_tracks = RHO_MAX_TRACKS;
     for (int i = 0; i < report.num_tracks; i++) {
         report.tracks[i].track_id = (uint32_t)i + 1;

@@ -6,7 +6,7 @@
 Parts: grid (aircraft and clutter of scene air-traffic), stress (what else goes wrong), operation
 (detection against false tracks), pairs (two aircraft close together: who is who afterwards?),
 clutter (false tracks an hour without an aircraft), rivals (Stone Soup on the same plots). Their
-runs, and the limit, are in simulated_air_traffic_runs.py.
+runs, and the limit, are in air_traffic_runs.py.
 """
 import collections
 import math
@@ -15,7 +15,7 @@ import numpy as np
 
 from common import experiment
 from common import stonesoup_tracker
-from parts.simulated_air_traffic_runs import (ALARMS, CASES, CUTOFFS_M, PAIRS, run_alarm, run_pair,
+from parts.air_traffic_runs import (ALARMS, CASES, CUTOFFS_M, PAIRS, run_alarm, run_pair,
                                               run_rival, run_traffic)
 
 RUNS = 4

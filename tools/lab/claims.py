@@ -3,7 +3,7 @@
 """The register of claims: each equation, step, figure, table and number of the three papers beside
 the code, the test, the figures of ours, and whether it holds.
 
-Reads the tables tools/lab/claims/*.ini (read_papers_claims_tables.py says what stands in them),
+Reads the tables tools/lab/claims/*.ini (read_claims.py says what stands in them),
 runs the experiments papers-initiation, passive and maneuver and the tests that rows without figures
 name, and writes OUTPUT/CLAIMS.md; with --update tools/lab/CLAIMS.md, the page that is kept.
 """
@@ -18,7 +18,7 @@ import sys
 import textwrap
 import unittest
 
-from parts import read_papers_claims_tables as table
+from parts import read_claims as table
 from common import experiment
 
 RUNS = 50  # the paper's own number; passive has as many of its shares
@@ -72,10 +72,10 @@ def run_experiment(options, name):
 
 def figures_of(options, papers):
     """{experiment: its figures.json} of all that the rows name."""
-    from parts import compute_claims_figures_outside_experiments
+    from parts import claims_figures
     used = {of[1] for paper in papers for row in paper.rows for of in row.measured}
     used |= {row.at[1] for paper in papers for row in paper.rows if row.at}
-    figures = {"own": compute_claims_figures_outside_experiments.figures()} if "own" in used else {}
+    figures = {"own": claims_figures.figures()} if "own" in used else {}
     for name in EXPERIMENTS:
         if name in used:
             path = experiment_folder(options, name) / "figures.json"
@@ -220,7 +220,7 @@ def sources_of(options, figures):
     how = ("as they were last run, which [the measurements](MEASUREMENTS.md) show, too"
            if options.figures else "which this command ran")
     return f"{', '.join(names)}, {how}; `claims` itself has those of " \
-           "`tools/lab/parts/compute_claims_figures_outside_experiments.py`"
+           "`tools/lab/parts/claims_figures.py`"
 
 
 def wrapped_paragraphs(text, **values):

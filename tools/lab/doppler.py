@@ -9,7 +9,7 @@ experiment polar.
 """
 from common import experiment
 from parts import polar_runs as polar
-from common import simulate_scene_in_memory
+from common import simulate_scene
 
 RUNS = 60
 CLUTTER = (50, 75, 100, 150, 200, 300, 400)  # where the limit without range rates is looked for
@@ -24,7 +24,7 @@ JUDGED = (1, 2)  # beyond the limit the others take most of the time, and a quar
 def run(job):
     """job: cases, seed, clutter that moves, clutter that stands."""
     cases, seed, moving, still = job
-    sky = polar.Sky(simulate_scene_in_memory.simulate("doppler", seed, f"clutter.0.plots={moving}",
+    sky = polar.Sky(simulate_scene.simulate("doppler", seed, f"clutter.0.plots={moving}",
                                         f"clutter.1.plots={still}"), moving)
     return [polar.measure(case, sky) for case in cases]
 

@@ -3,9 +3,9 @@
 """Experiment extended-rivals: targets that give several plots a scan, by rhotrack and by others.
 
 The same scenes and seeds as in experiment extended, cut in time, go to rhotrack with bodies; to
-group tracking as Texas Instruments publishes it (parts/texas_instruments_group_tracker.py); and,
+group tracking as Texas Instruments publishes it (parts/ti_group_tracker.py); and,
 where the package is installed (`make bench-stonesoup`), to Stone Soup's trackers of points behind
-DBSCAN, as it has none of extended targets (parts/stonesoup_on_clustered_plots.py).
+DBSCAN, as it has none of extended targets (parts/stonesoup_clusters.py).
 
 rhotrack is told what the scene tells: the longest body, speeds, errors. The others' settings were
 chosen for each kind of scene, on seed 1001. Tracks, identities, completeness and the centre's
@@ -18,11 +18,11 @@ import time
 import numpy as np
 
 from common import experiment
-from common import simulate_scene_in_memory
+from common import simulate_scene
 from common import stonesoup_tracker
 import extended
-from parts import stonesoup_on_clustered_plots
-from parts import texas_instruments_group_tracker
+from parts import stonesoup_clusters
+from parts import ti_group_tracker
 import rhotrack
 
 RUNS = 3
@@ -31,7 +31,7 @@ CARS_AT_A_LIGHT = 24
 PLOT = ("t_s", "sensor_id", "range_m", "azimuth_rad", "range_rate_mps", "sector_from_rad",
         "sector_to_rad", "scan")
 STONE_SOUP = {
-    f"Stone Soup, {method.upper()}": method for method in stonesoup_on_clustered_plots.METHODS}
+    f"Stone Soup, {method.upper()}": method for method in stonesoup_clusters.METHODS}
 OWN, GROUPS = "rhotrack", "group tracking"
 
 # The best of a short search along one setting after the other, seed 1001, by tracks, identities,
@@ -39,18 +39,18 @@ OWN, GROUPS = "rhotrack", "group tracking"
 # defaults. DBSCAN's reach on roads, GNN, of reach_m 4, 5, 6.5, 8: 1.61, 1.37, 1.00, 1.05 of that
 # cost. Less splits trucks, more joins cars.
 ROAD = (0.2, 0.01, 0.1)
-ROAD_GROUPS = texas_instruments_group_tracker.Settings(
+ROAD_GROUPS = ti_group_tracker.Settings(
     ROAD, gate=16.0, distance_m=12.0, rate_mps=1.0, min_points=2, spread_m=1.5, spread_mps=0.3,
     speed_mps=3.0, accel_mps2=0.2, smoothing=0.1, hits=3, lost_new=1, lost=5)
-ROAD_GNN = stonesoup_on_clustered_plots.Settings(
+ROAD_GNN = stonesoup_clusters.Settings(
     ROAD, reach_m=6.5, reach_mps=2.0, min_points=1, centre_m=1.5, centre_mps=0.05,
     process_noise=1.0, speed_mps=3.0, gate=4.0, clutter=1 / (1.2 * 200**2 * 40), hits=6, lost=8)
 ROAD_JPDA = dataclasses.replace(ROAD_GNN, reach_m=8.0, lost=5)
 SHIPS = (5.0, 0.002)
-SHIP_GROUPS = texas_instruments_group_tracker.Settings(
+SHIP_GROUPS = ti_group_tracker.Settings(
     SHIPS, gate=12.0, distance_m=200.0, rate_mps=0.0, min_points=2, spread_m=80.0, spread_mps=0.0,
     speed_mps=8.0, accel_mps2=0.003, smoothing=0.2, hits=3, lost_new=2, lost=5)
-SHIP_GNN = stonesoup_on_clustered_plots.Settings(
+SHIP_GNN = stonesoup_clusters.Settings(
     SHIPS, reach_m=200.0, reach_mps=0.0, min_points=2, centre_m=40.0, centre_mps=0.0,
     process_noise=0.001, speed_mps=8.0, gate=4.0, clutter=30 / (3.14 * 15000**2), hits=2, lost=5,
     lost_m=500.0)
@@ -62,7 +62,7 @@ class Case:
     name: str
     scene: str
     settle_s: float
-    groups: texas_instruments_group_tracker.Settings
+    groups: ti_group_tracker.Settings
     clusters: dict  # by Stone Soup's method; empty: without, which takes hours
     sets: tuple
 
@@ -82,7 +82,7 @@ CASES = (
 
 def simulate(case, seed):
     """The run, with the truth's columns."""
-    return simulate_scene_in_memory.simulate(
+    return simulate_scene.simulate(
         case.scene, seed, *case.sets,
         also=lambda folder: with_kept_headings(extended.table(folder / "truth.csv")))
 
@@ -102,7 +102,7 @@ def with_kept_headings(truth):
 def track_own(run):
     """Tracks of all scans, and the mean time of a step in ms."""
     names = [name for name in PLOT if name in run.plots.dtype.names]
-    rows = simulate_scene_in_memory.with_fields(run.plots, names)
+    rows = simulate_scene.with_fields(run.plots, names)
     tracker, found, times_ms = rhotrack.Tracker(run.settings), [], []
     for scan in np.split(rows, np.flatnonzero(np.diff(rows["scan"])) + 1):
         ready = rhotrack.Scans([scan], run.settings)
@@ -119,7 +119,7 @@ def scans_of(run, num_axes):
     names = ["range_m", "azimuth_rad", "range_rate_mps"][:num_axes]
     scans = []
     for rows in run.scans:
-        plots = rows[simulate_scene_in_memory.has_plot(rows)]
+        plots = rows[simulate_scene.has_plot(rows)]
         scans.append((rows["t_s"][0], np.column_stack([plots[name] for name in names]),
                       plots["t_s"]))
     return scans
@@ -130,12 +130,12 @@ def track(case, run, tracker):
     if tracker == OWN:
         return track_own(run)
     if tracker == GROUPS:
-        rows, ms = texas_instruments_group_tracker.track(
+        rows, ms = ti_group_tracker.track(
             scans_of(run, len(case.groups.sigmas)), case.groups)
     else:
         method = STONE_SOUP[tracker]
         settings = case.clusters[method]
-        rows, ms = stonesoup_on_clustered_plots.track(
+        rows, ms = stonesoup_clusters.track(
             scans_of(run, len(settings.sigmas)), settings, method)
     return {name: rows[name] for name in rows.dtype.names}, ms
 

@@ -3,7 +3,7 @@
 """False tracks an hour, and time to confirm: whether the tracker keeps the false-track rate that
 it was asked for, and how soon it confirms a target.
 
-Area, noise and speeds of Table 1 of Fan et al. (initiation_paper_aircraft_and_plots.py), a scan
+Area, noise and speeds of Table 1 of Fan et al. (paper_aircraft.py), a scan
 every 2 s, min_scans chosen by the tracker. First clutter alone: every confirmed track is false.
 Then three targets from the first scan on, P_D 0.99, 0.9 assumed, one false track an hour wanted.
 First possible: the scan at which a fit through the target's own plots reaches the threshold that
@@ -17,9 +17,9 @@ import numpy as np
 from scipy.stats import chi2
 
 from common import experiment
-from common import initiation_paper_aircraft_and_plots as paper
+from common import paper_aircraft as paper
 import rhotrack
-from common import oracle_by_straight_fit
+from common import oracle_fit
 
 RUNS = 8
 INTERVAL_S = paper.TABLE_1_INTERVAL_S
@@ -109,12 +109,12 @@ def is_fit_above_threshold(history, per_km2, area_m2, settings, confirm_nat):
         return False
     history = np.array(history)
     t_s = history[:, 0] - history[0, 0]
-    model = oracle_by_straight_fit.Model(
+    model = oracle_fit.Model(
         round(t_s[-1] / INTERVAL_S) + 1, INTERVAL_S, paper.TABLE_1_SIGMA_M, settings.pd, area_m2,
         paper.V_MIN_MPS, paper.V_MAX_MPS)
     # where there is no clutter: half a plot in the area and window, as the initiator takes it
     density = max(1e-6 * per_km2, 0.5 / (area_m2 * settings.scans))
-    score_nat = oracle_by_straight_fit.fit(model, t_s, history[:, 1:],
+    score_nat = oracle_fit.fit(model, t_s, history[:, 1:],
                                            np.full(len(t_s), density))[1]
     return score_nat >= confirm_nat
 

@@ -13,9 +13,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from common import experiment
-from common import initiation_paper_aircraft_and_plots as paper
+from common import paper_aircraft as paper
 import rhotrack
-from common import oracle_by_straight_fit
+from common import oracle_fit
 
 RUNS = 300  # fewer do not decide a bar of .99 of the runs
 TURN_RAD = np.radians(2)  # a scan
@@ -163,7 +163,7 @@ def plots_of(case, rng):
 
 
 def model_of(case):
-    return oracle_by_straight_fit.Model(
+    return oracle_fit.Model(
         paper.SCANS, paper.TABLE_3_INTERVAL_S if case.is_table_3 else paper.TABLE_1_INTERVAL_S,
         paper.TABLE_3_SIGMA_M if case.is_table_3 else paper.TABLE_1_SIGMA_M,
         0.9 if "clutter only" in case.name else min(case.pd, 0.99), paper.area_m2(case.box_m),
@@ -210,7 +210,7 @@ def is_own_fit_accepted(case, model, plots, target):
     scan = np.repeat(np.arange(len(plots)), [np.sum(which == target) for _, which in plots])
     if len(scan) < case.min_scans:
         return False
-    velocity, score_nat = oracle_by_straight_fit.fit(model, model.interval_s * scan, places_m,
+    velocity, score_nat = oracle_fit.fit(model, model.interval_s * scan, places_m,
                                            density_per_m2(case, plots, places_m))
     return (score_nat >= case.score_min_nat
             and model.v_min_mps <= np.hypot(*velocity) <= model.v_max_mps)

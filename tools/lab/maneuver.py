@@ -5,12 +5,12 @@
 The paper: "A novel tracking algorithm by integrating the Kalman filter, input estimation, and
 clutter elimination algorithm to track maneuvering targets in cluttered environments". It gives
 neither scenarios nor sizes of manoeuvres: the profiles and 10 g are ours
-(maneuver_truth_and_plots.py), so that the paper's velocity errors come out. Values behind a stroke
+(maneuver_truth.py), so that the paper's velocity errors come out. Values behind a stroke
 were measured by an independent implementation in double precision, 500 runs a case (200 at 100
 clutter plots).
 
 The methods are the gates of `rhotrack maintain`, one track alone that is never dropped; references
-(reference_kalman_and_imm.py) know which plot is the target's, the clairvoyant one its input as
+(reference_filters.py) know which plot is the target's, the clairvoyant one its input as
 well.
 """
 import math
@@ -19,11 +19,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from common import experiment
-from parts.maneuver_truth_and_plots import CLEAN_SCANS, INTERVAL_S, SCANS, Scene, Setting
-from parts.maneuver_follow_one_scene import FIRST_RUNS, Method, follow, outcome_of, summary_of
+from parts.maneuver_truth import CLEAN_SCANS, INTERVAL_S, SCANS, Scene, Setting
+from parts.maneuver_follow import FIRST_RUNS, Method, follow, outcome_of, summary_of
 
 NAN = math.nan
-CHUNK = 100  # runs side by side
+CHUNK = 25  # runs side by side
 
 # ---- cases ----
 

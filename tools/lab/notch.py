@@ -19,7 +19,7 @@ import numpy as np
 
 from common import experiment
 import real_skies
-from common import read_truth_plots_tracks
+from common import scene_files
 from common import scoring
 
 RUNS = 20
@@ -69,22 +69,22 @@ def run(job):
     """Figures of one run; of the first one also what a picture needs."""
     number, seed, is_kept = job
     case = CASES[number]
-    path = read_truth_plots_tracks.path_of(experiment.ROOT / "tools" / "scenes", case.scene)
+    path = scene_files.path_of(experiment.ROOT / "tools" / "scenes", case.scene)
     scene = json.loads(path.read_text(encoding="utf-8"))
     with tempfile.TemporaryDirectory(prefix="rhotrack-") as name:
         folder = pathlib.Path(name)
         sets = [word for one in case.sets for word in ("--set", one)]
         real_skies.run_program(experiment.BUILD / "rhotrack",
                                ["simulate", path, "--seed", seed, "-o", folder, *sets])
-        settings = read_truth_plots_tracks.Settings(folder / "scenario.ini")
+        settings = scene_files.Settings(folder / "scenario.ini")
         sensors = settings.sensors()
-        plots = read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors, 0.0)
-        truth = read_truth_plots_tracks.read_truth(folder, plots.scan_times_us)
+        plots = scene_files.read_plots(folder / "plots.csv", sensors, 0.0)
+        truth = scene_files.read_truth(folder, plots.scan_times_us)
         real_skies.run_program(experiment.BUILD / "rhotrack", [
             "track", folder / "plots.csv", "--config", folder / "scenario.ini", "--covariance",
             "-o", folder / "tracks.csv", *(word for one in case.track_sets
                                            for word in ("--set", one))])
-        tracks = read_truth_plots_tracks.read_tracks(folder / "tracks.csv", truth)
+        tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
         figures, _ = scoring.score(truth, tracks, scoring.gate_m(sensors),
                                    scoring.forgiven_scans(scene))
         late, _ = scoring.score(*scans_after(truth, tracks, LATE_US), scoring.gate_m(sensors),
@@ -103,7 +103,7 @@ def scans_after(truth, tracks, time_us):
     first = int(np.searchsorted(truth.times_us, truth.times_us[0] + time_us))
     later = {field.name: getattr(truth, field.name)[first:] for field in dataclasses.fields(truth)
              if field.name != "ids" and getattr(truth, field.name) is not None}
-    return dataclasses.replace(truth, **later), read_truth_plots_tracks.Tracks(
+    return dataclasses.replace(truth, **later), scene_files.Tracks(
         tracks.ids[first:], tracks.place_m[first:], tracks.more[first:])
 
 

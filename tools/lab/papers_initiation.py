@@ -21,10 +21,10 @@ from typing import NamedTuple
 import numpy as np
 
 from common import experiment
-from common import initiation_paper_aircraft_and_plots as paper
-from parts import papers_initiation_reference_values as known
+from common import paper_aircraft as paper
+from parts import papers_initiation_values as known
 from parts import papers_initiation_pictures as pictures
-from parts import papers_initiation_filtered_track_figures as tracks
+from parts import papers_initiation_filtered as tracks
 import rhotrack
 
 RUNS = 200

@@ -17,14 +17,14 @@ from common import experiment  # before numpy, whose threads it limits
 import numpy as np
 
 from parts import passive_chain
-from parts import passive_paper_further_claims
+from parts import passive_further_claims
 from parts import passive_paper_figures
-from parts import passive_paper_method_variants
+from parts import passive_variants
 import rhotrack
-from parts.passive_scenes_and_references import PLACES_M, Setting, fit, moved, nees
+from parts.passive_scenes import PLACES_M, Setting, fit, moved, nees
 from common.experiment import ratio_of, root_of
 from parts.passive_paper_figures import RANGE_MAX_M, line_of, line_off, lines_matched, search_paper
-from parts.passive_runs_and_figure_texts import (RULES, beside, facts_of, found_facts, found_of,
+from parts.passive_runs import (RULES, beside, facts_of, found_facts, found_of,
                                                  judge_rate, runs_of, text_of)
 
 RUNS = 400
@@ -358,8 +358,8 @@ def tell_default(report):
 
 
 PARTS = {"pruning": tell_pruning, "paper": tell_paper, "default": tell_default,
-         "chain": passive_chain.tell, "further": passive_paper_method_variants.tell,
-         "claims": passive_paper_further_claims.tell}
+         "chain": passive_chain.tell, "further": passive_variants.tell,
+         "claims": passive_further_claims.tell}
 
 
 def main():

@@ -11,7 +11,7 @@ import numpy as np
 
 from common import experiment
 import rhotrack
-from common import simulate_scene_in_memory
+from common import simulate_scene
 from parts.polar_runs import (MIN_SCANS, PD, SIGMA_RANGE_RATE_MPS, TURN_S, WINDOW, Case, Sky, facts,
                         figures_of, measure)
 
@@ -24,7 +24,7 @@ CASES = (Case("own covariance"), Case("one isotropic sigma", is_isotropic=True),
 
 def run(job):
     seed, clutter = job
-    sky = Sky(simulate_scene_in_memory.simulate("polar", seed, f"clutter.0.plots={clutter}",
+    sky = Sky(simulate_scene.simulate("polar", seed, f"clutter.0.plots={clutter}",
                                   f"radars.0.sigma_range_rate_mps={SIGMA_RANGE_RATE_MPS}"), clutter)
     return [measure(case, sky) for case in CASES]
 
@@ -69,7 +69,7 @@ def draw_run(report):
     """A run without misses: the map, and the gates of one target's kernel."""
     import matplotlib.pyplot as plt
     clutter = CLUTTER[-1]
-    sky = Sky(simulate_scene_in_memory.simulate("polar", report.options.seed, "radars.0.pd=1",
+    sky = Sky(simulate_scene.simulate("polar", report.options.seed, "radars.0.pd=1",
                                   f"clutter.0.plots={clutter}",
                                   f"radars.0.sigma_range_rate_mps={SIGMA_RANGE_RATE_MPS}"), clutter)
     plots = np.concatenate(sky.turns[:WINDOW])

@@ -27,7 +27,7 @@ import numpy as np
 
 from common import oracle
 from common import scoring
-from common import read_truth_plots_tracks
+from common import scene_files
 
 HERE = pathlib.Path(__file__).resolve()
 ROOT = HERE.parents[2]
@@ -74,13 +74,13 @@ def simulated(job, folder):
     """Simulates, and reads what is known of the run: settings, sensors, plots (None without
     radars), truth."""
     run_program(job["simulator"], ["simulate", job["scene"], "--seed", job["seed"], "-o", folder])
-    settings = read_truth_plots_tracks.Settings(folder / "scenario.ini")
+    settings = scene_files.Settings(folder / "scenario.ini")
     sensors = settings.sensors()
     plots = None
     if (folder / "plots.csv").exists():
-        plots = read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors,
+        plots = scene_files.read_plots(folder / "plots.csv", sensors,
                                        settings.get("scan_interval_s", 0.0))
-    return settings, sensors, plots, read_truth_plots_tracks.read_truth(
+    return settings, sensors, plots, scene_files.read_truth(
         folder, () if plots is None else plots.scan_times_us)
 
 
@@ -109,7 +109,7 @@ def run(job):
             folder / "tracks.csv"
         ])
         gate, forgiven = scoring.gate_m(sensors), job["forgiven"]
-        tracks = read_truth_plots_tracks.read_tracks(folder / "tracks.csv", truth)
+        tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
         result = {"seed": job["seed"]}
         result["today"], false_rows = scoring.score(truth, tracks, gate, forgiven)
         if job["noise"] is not None and plots is not None:
@@ -269,7 +269,7 @@ def consistency_rows(result):
     within its limits or None)."""
     rows = []
     for label, figures in (("today", result["figures"]), ("oracle", result["oracle"])):
-        for motion in ("", *read_truth_plots_tracks.MOTIONS) if figures else ():
+        for motion in ("", *scene_files.MOTIONS) if figures else ():
             end = motion and "_" + motion
             cells = [(figure_cell(figures, key + end, form, False), None) for key, form in
                      (("pairs", "{:.0f}"), ("rms_m", "{:.1f}"), ("rms_mps", "{:.2f}"))]
@@ -334,7 +334,7 @@ def find_scenes(options):
     """{name: (path, scene)}: those named, or all with a goal, in the order of their names."""
     if options.scene:
         paths = [
-            pathlib.Path(name) if name.endswith(".json") else read_truth_plots_tracks.path_of(
+            pathlib.Path(name) if name.endswith(".json") else scene_files.path_of(
                 options.scenes, name) for name in options.scene
         ]
     else:
@@ -434,8 +434,8 @@ def main():
             from parts import false_track_endurance
             alarms = false_track_endurance.measure(options, run_program)
         elif options.long:
-            from parts import endurance_hour_by_hour
-            longs = endurance_hour_by_hour.measure(options, run_program)
+            from parts import endurance_hours
+            longs = endurance_hours.measure(options, run_program)
         else:
             results = measure(options, find_scenes(options))
         report = as_json(results, options, alarms, longs)
@@ -452,7 +452,7 @@ def main():
     if options.endurance:
         print(false_track_endurance.table(alarms))
     elif options.long:
-        print(endurance_hour_by_hour.table(longs))
+        print(endurance_hours.table(longs))
     elif not options.lines:
         print_table(results, options)
         print_consistency(results)

@@ -14,7 +14,7 @@ import numpy as np
 
 from common import experiment
 import rhotrack
-from common import simulate_scene_in_memory
+from common import simulate_scene
 
 RUNS = 200
 CASES = ("sectors", "whole turns", "all at once")
@@ -29,12 +29,12 @@ STEP_MAX_MS = 1.0  # beside the sector's own time
 def scans_of(case, run, seed):
     """Rows of each scan; a scan's own row is its first."""
     if case == "sectors":
-        rows = simulate_scene_in_memory.with_fields(
+        rows = simulate_scene.with_fields(
             run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad", "sector_from_rad",
                         "sector_to_rad", "scan"))
         return np.split(rows, np.flatnonzero(np.diff(rows["scan"])) + 1)
-    is_plot = simulate_scene_in_memory.has_plot(run.plots)
-    rows = simulate_scene_in_memory.with_fields(
+    is_plot = simulate_scene.has_plot(run.plots)
+    rows = simulate_scene.with_fields(
         run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad"))
     turn = ((run.plots["scan"] - 1) // SECTORS).astype(int)
     end_s = TURN_S * (turn + 1)
@@ -62,7 +62,7 @@ def follow(case, run, seed):
                                                                run.settings))
     tracks = tracks[tracks["status"] != "tentative"]
     scan = run.truth.scan_of(
-        simulate_scene_in_memory.read_truth_plots_tracks.microseconds(tracks["t_s"]))
+        simulate_scene.scene_files.microseconds(tracks["t_s"]))
     off_m = np.column_stack([tracks["x_m"], tracks["y_m"]])[:, None] - run.truth.place_m[scan]
     distance_m = np.linalg.norm(off_m, axis=2)
     target = distance_m.argmin(axis=1)
@@ -82,7 +82,7 @@ def follow(case, run, seed):
 
 
 def measure(seed):
-    run = simulate_scene_in_memory.simulate("rotating", seed)
+    run = simulate_scene.simulate("rotating", seed)
     return [follow(case, run, seed) for case in CASES]
 
 
@@ -91,7 +91,7 @@ def time_steps(case, seeds):
     the end of the scan. Of each step the least of some rounds, of the processor's time."""
     longest_us, latency_us, shown = 0.0, 0.0, None
     for seed in seeds:
-        run = simulate_scene_in_memory.simulate("rotating", seed)
+        run = simulate_scene.simulate("rotating", seed)
         scans = scans_of(case, run, seed)
         ready = [rhotrack.Scans([scan], run.settings) for scan in scans]
         step_us = np.full(len(scans), np.inf)

@@ -18,7 +18,7 @@ from common import experiment  # before numpy, whose threads it limits
 import numpy as np
 
 import real_skies
-from common import read_truth_plots_tracks
+from common import scene_files
 from common import scoring
 
 SCENE = real_skies.ROOT / "tools" / "scenes" / "radars" / "overlapping-radars.json"
@@ -121,12 +121,12 @@ def run(job):
         folder = pathlib.Path(kept)
         real_skies.run_program(options["simulator"],
                                ["simulate", SCENE, "--seed", seed, "-o", folder, *changes])
-        sensors = read_truth_plots_tracks.Settings(folder / "scenario.ini").sensors()
-        truth = read_truth_plots_tracks.read_truth(
+        sensors = scene_files.Settings(folder / "scenario.ini").sensors()
+        truth = scene_files.read_truth(
             folder,
-            read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors).scan_times_us)
+            scene_files.read_plots(folder / "plots.csv", sensors).scan_times_us)
         ever = truth.visible.any(axis=0)
-        truth = read_truth_plots_tracks.Truth(truth.times_us, truth.ids[ever],
+        truth = scene_files.Truth(truth.times_us, truth.ids[ever],
                                               truth.place_m[:, ever], truth.visible[:, ever])
         begins_m = truth.place_m[truth.visible.argmax(axis=0), np.arange(len(truth.ids))]
         result = {
@@ -143,7 +143,7 @@ def run(job):
                 folder / "tracks.csv"
             ])
             result[who] = follow(
-                truth, read_truth_plots_tracks.read_tracks(folder / "tracks.csv", truth),
+                truth, scene_files.read_tracks(folder / "tracks.csv", truth),
                 scoring.gate_m(sensors))
     return name, result
 

@@ -18,7 +18,7 @@ import numpy as np
 from common import gospa
 from common import experiment
 import rhotrack
-from common import simulate_scene_in_memory
+from common import simulate_scene
 
 RUNS = 50
 LOOK_S = 1.0
@@ -48,7 +48,7 @@ FIRST, SECOND, LEFT, FOUND, KNOWN, ARRIVED = range(len(CASES))
 
 def register(folder):
     """{sensor_id: what `rhotrack register --json` says of it}; a bias may be missing or null."""
-    told = json.loads(simulate_scene_in_memory.run_program(
+    told = json.loads(simulate_scene.run_program(
         "register", folder / "plots.csv", "--config", folder / "scenario.ini", "--json"))
     return {radar["sensor_id"]: radar for radar in told["radars"]}
 
@@ -59,10 +59,10 @@ def register(folder):
 def scans_of(case, run):
     """Settings that know the case's biases, and its scans; times of plots without their bias."""
     settings = run.settings.copy()
-    rows = simulate_scene_in_memory.with_fields(
+    rows = simulate_scene.with_fields(
         run.plots,
         ("t_s", "sensor_id", "range_m", "azimuth_rad", "sector_from_rad", "sector_to_rad"))
-    is_plot = simulate_scene_in_memory.has_plot(rows)
+    is_plot = simulate_scene.has_plot(rows)
     for sensor_id in case.radars:
         biases = dict(BIASES[sensor_id]) if case.biases == "known" else {
             kind: (run.also[sensor_id].get(kind) or 0.0) if case.biases == "found" else 0.0
@@ -110,7 +110,7 @@ def follow(case, run):
     order = np.argsort(tracks["t_s"], kind="stable")
     bounds = np.searchsorted(tracks["t_s"][order], np.add.outer([-1e-4, 1e-4], looks))
     scan_of = run.truth.scan_of(
-        simulate_scene_in_memory.read_truth_plots_tracks.microseconds(looks))
+        simulate_scene.scene_files.microseconds(looks))
     last_s, hours = None, 0.0
     for k, look_s in enumerate(looks):
         places_m, velocities_mps = run.truth.place_m[scan_of[k]], run.truth.velocity_mps[scan_of[k]]
@@ -142,7 +142,7 @@ def follow(case, run):
 
 
 def measure(seed):
-    run = simulate_scene_in_memory.simulate("two-radars", seed, also=register)
+    run = simulate_scene.simulate("two-radars", seed, also=register)
     return run.also, [follow(case, run) for case in CASES]
 
 
@@ -228,7 +228,7 @@ def judge(report, biases, variance, figures):
 def draw_run(report):
     """The map, and 80 s of the aircraft that is nearest to a place between the radars and north."""
     import matplotlib.pyplot as plt
-    run = simulate_scene_in_memory.simulate("two-radars", report.options.seed, also=register)
+    run = simulate_scene.simulate("two-radars", report.options.seed, also=register)
     truth = run.truth
     figure, axes = plt.subplots(figsize=(8, 7))
     axes.plot(*truth.place_m.transpose(2, 0, 1) / 1e3, color="#0072b2")

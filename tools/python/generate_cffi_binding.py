@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Writes the C of the module rhotrack._native: all of the library's headers, and
-readers_and_pipeline_for_python.h.
+python_interface.h.
 
 Usage: generate_cffi_binding.py OUTPUT COMPILER INCLUDE (the folder with rhotrack/). The headers say
 what Python sees, so that nothing is declared twice: the preprocessor resolves capacities, and cffi
@@ -15,7 +15,7 @@ from cffi import FFI
 
 HERE = Path(__file__).resolve().parent
 FLAGS = ["-std=c11", "-DRHO_PROFILE_WORKSTATION"]
-SOURCE = '#include "readers_and_pipeline_for_python.h"\n#include "rhotrack/detail/angle.h"\n'
+SOURCE = '#include "python_interface.h"\n#include "rhotrack/detail/angle.h"\n'
 MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_HOUGH_VOTE", "RHO_PAPER_RHO_CELLS",
           "RHO_MEASURES_RANGE_RATE", "RHO_LEARNED_REFLECTORS")
 
@@ -28,7 +28,7 @@ def declarations(compiler, include):
     for line in text.splitlines():
         if marker := re.match(r'#.*"(.*?)"', line):
             is_own = "/rhotrack/" in marker[1] or marker[1].endswith(
-                "readers_and_pipeline_for_python.h")
+                "python_interface.h")
         elif is_own:
             lines.append(line)
     text = re.sub(r"static inline [^{;]*\{.*?\n\}|__attribute__\(\(\w+\)\)", "",

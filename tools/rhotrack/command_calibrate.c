@@ -4,18 +4,18 @@
  */
 
 #include "base/common.h"
-#include "calibration/calibrate_noise_and_pd.h"
+#include "calibration/calibrate_noise.h"
 #include "calibration/calibrate_output.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
-#include "io/scans/merge_plots_and_bearings.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "commands.h"
+#include "io/scans/merged_inputs.h"
+#include "registration/register_data.h"
 
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)
 {
-    struct merged_inputs *inputs = merged_inputs_open_plots_and_bearings(
-        line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct merged_inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
+                                                      &line->parameters, line->keep_going);
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0, skipped;
 
@@ -29,14 +29,14 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
         if (input.sensor) {
             sensor = *input.sensor;
         } else {
-            parameters_to_sensor_or_defaults(&line->parameters, input.scan->sensor_id, &sensor);
+            parameters_sensor_or_default(&line->parameters, input.scan->sensor_id, &sensor);
         }
         register_add_unchecked_scan(data, input.scan, &sensor);
         progress_show_by_bytes(&progress, ++done, merged_inputs_bytes_read(inputs),
                                merged_inputs_total_bytes(inputs));
     }
     progress_end(&progress);
-    skipped = merged_inputs_step_and_plot_counts(inputs).rows_skipped;
+    skipped = merged_inputs_counts(inputs).rows_skipped;
     merged_inputs_close(inputs);
     return skipped;
 }

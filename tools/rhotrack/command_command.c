@@ -8,7 +8,7 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "rhotrack/command.h"
 #include "rhotrack/message.h"
 #include "transport/transport.h"
@@ -16,8 +16,6 @@
 /* default position noise of a track that an operator starts at a place on a map */
 #define SIGMA_M 100.0f
 #define WAIT_S 15.0
-
-/* ---- What is said ---- */
 
 static const struct action {
     const char *name;
@@ -181,8 +179,6 @@ static struct rho_message_command parse_command(char **arguments, int num_argume
     return command;
 }
 
-/* ---- Settings ---- */
-
 static const char *setting_name_at(size_t index)
 {
     return rho_command_setting_name((int)index + 1);
@@ -243,8 +239,6 @@ static void print_setting_answer_or_fail(const struct rho_message_setting_answer
         fail(EXIT_RUNTIME, "refused: %s", rho_status_name((enum rho_status)answer->status));
     }
 }
-
-/* ---- The answer ---- */
 
 /* The answer to a setting where is_setting, else the answer to a command. */
 struct answer {

@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "commands.h"
+#include "settings/initiation_methods.h"
 
 /* Adds a parameter's value to JSON: a string where the parameter has choices, else a number. */
 static void add_parameter_value(cJSON *object, const char *name, const struct parameter_text *text,

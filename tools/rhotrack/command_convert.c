@@ -10,21 +10,19 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
+#include "io/asterix/asterix_track_table.h"
 #include "io/asterix/asterix_track_writer.h"
-#include "io/asterix/asterix_tracks_to_table.h"
-#include "io/csv/table_columns_and_cells.h"
-#include "io/log/files_to_message_stream.h"
+#include "io/csv/csv_table.h"
 #include "io/log/lcm_log.h"
+#include "io/log/message_source.h"
+#include "io/output/geojson_rows.h"
 #include "io/output/geojson_tracks_writer.h"
-#include "io/output/track_rows_to_geojson.h"
 #include "io/rows/rows_from_csv.h"
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
-
-/* ---- Which way ---- */
 
 static bool may_be_regular_file(const char *path)
 {
@@ -65,8 +63,6 @@ static void check_output_format_differs(const char *input, const char *output, b
     }
 }
 
-/* ---- CSV to log ---- */
-
 static void write_messages_to_log(struct message_source *source, const struct command_line *line)
 {
     const char *path = line->arguments[1];
@@ -86,7 +82,7 @@ static void write_messages_to_log(struct message_source *source, const struct co
 static void convert_table_to_log(const struct command_line *line)
 {
     struct message_source *source =
-        message_source_open_logs_or_csv(line->arguments, 1, &line->parameters, line->keep_going);
+        message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
 
     if (line->kind) {
         fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is a CSV file",
@@ -96,8 +92,6 @@ static void convert_table_to_log(const struct command_line *line)
     message_source_report_skipped(source);
     message_source_close(source);
 }
-
-/* ---- ASTERIX to CSV ---- */
 
 static void convert_asterix_plots_to_csv(const struct command_line *line)
 {
@@ -135,14 +129,12 @@ static void convert_asterix_tracks_to_csv(const struct command_line *line)
     table_free(table);
 }
 
-/* ---- Tracks to ASTERIX ---- */
-
 /* Writes a log's track lists as ASTERIX CAT062 records; other messages are counted and reported. */
 static void convert_tracks_to_asterix(const struct command_line *line)
 {
     const char *input = line->arguments[0];
     struct message_source *source =
-        message_source_open_logs_or_csv(line->arguments, 1, &line->parameters, line->keep_going);
+        message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
     struct output output = output_open(line->arguments[1]);
     struct asterix_track_writer *tracks = asterix_track_writer_open(output.file, &line->parameters);
     struct message_event event;
@@ -152,7 +144,7 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     while (message_source_next(source, &event)) {
         if (strcmp(event.channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 &&
             rho_message_track_list_decode(event.data, event.size, &message) == RHO_OK) {
-            asterix_track_writer_add_list_part(tracks, &message);
+            asterix_track_writer_add(tracks, &message);
             lists++;
         } else {
             others++;
@@ -169,8 +161,6 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     message_source_report_skipped(source);
     message_source_close(source);
 }
-
-/* ---- Log to CSV ---- */
 
 struct reading {
     const struct command_line *line;
@@ -237,7 +227,7 @@ static const char *list_kinds_found(const struct reading *reading, char *text, s
  * Exit 2 where the log lacks messages of the wanted kind, or has several kinds without --kind. Adds
  * the messages of other kinds to the count of messages left out.
  */
-static void check_one_kind_and_count_others(struct reading *reading)
+static void check_one_kind(struct reading *reading)
 {
     char text[200];
     int kinds = 0;
@@ -299,8 +289,8 @@ static void convert_log_to_csv(const struct command_line *line)
     if (lcm_log_counts(log).events == 0) {
         fail(EXIT_USAGE, "%s: contains no event of an LCM log", reading.path);
     }
-    check_one_kind_and_count_others(&reading);
-    rows_from_messages_sort_and_drop_repeats(&reading.collection);
+    check_one_kind(&reading);
+    rows_from_messages_sort(&reading.collection);
     if (reading.collection.rows.count == 0) {
         fail(EXIT_USAGE, "%s: its messages of %s have no rows", reading.path, reading.kind->name);
     }
@@ -315,8 +305,6 @@ static void convert_log_to_csv(const struct command_line *line)
     rows_from_messages_free(&reading.collection);
     lcm_log_close(log);
 }
-
-/* ---- To GeoJSON ---- */
 
 static void convert_tracks_to_geojson(const struct command_line *line)
 {
@@ -336,7 +324,7 @@ static void convert_tracks_to_geojson(const struct command_line *line)
 }
 
 /* Only tracks can be written as GeoJSON: other kinds and --covariance exit 2; selects the kind. */
-static void set_kind_to_tracks_for_geojson_or_fail(struct command_line *line)
+static void set_kind_for_geojson(struct command_line *line)
 {
     if (line->covariance) {
         fail(EXIT_USAGE, "convert: GeoJSON cannot hold covariances (--covariance)");
@@ -347,13 +335,13 @@ static void set_kind_to_tracks_for_geojson_or_fail(struct command_line *line)
     line->kind = rows_kind_tracks.name;
 }
 
-void command_convert_refuse_radar_as_tracks(const struct command_line *line)
+void convert_refuse_radar(const struct command_line *line)
 {
     const char *input = line->arguments[0], *output = line->arguments[1];
     bool to_map = geojson_path_is_geojson(output);
 
-    if ((to_map || asterix_track_writer_path_is_asterix(output)) &&
-        asterix_file_is_asterix(input) && !asterix_file_has_only_tracks(input)) {
+    if ((to_map || asterix_track_writer_is_path(output)) && asterix_file_is_asterix(input) &&
+        !asterix_file_has_only_tracks(input)) {
         check_input_is_table(input);
         fail(EXIT_USAGE, "%s: a recording of radar plots, not of tracks; %s is made of tracks",
              input, to_map ? "GeoJSON" : "CAT062");
@@ -366,8 +354,8 @@ int command_convert(struct command_line *line)
     bool to_map = geojson_path_is_geojson(line->arguments[1]);
 
     parameters_check_together(&line->parameters);
-    if (asterix_track_writer_path_is_asterix(line->arguments[1])) {
-        asterix_track_writer_refuse_covariance(line->arguments[1], line->covariance);
+    if (asterix_track_writer_is_path(line->arguments[1])) {
+        asterix_track_writer_check(line->arguments[1], line->covariance);
         convert_tracks_to_asterix(line);
         return 0;
     }
@@ -388,7 +376,7 @@ int command_convert(struct command_line *line)
     }
     check_output_format_differs(line->arguments[0], line->arguments[1], from_log);
     if (to_map) {
-        set_kind_to_tracks_for_geojson_or_fail(line);
+        set_kind_for_geojson(line);
     }
     if (to_map && !from_log) {
         convert_tracks_to_geojson(line);

@@ -4,13 +4,13 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "evaluation/evaluation.h"
-#include "evaluation/evaluation_of_tables_time_by_time.h"
-#include "evaluation/evaluation_results_to_text_json_csv.h"
-#include "io/csv/table_columns_and_cells.h"
-#include "io/log/log_messages_to_table.h"
-#include "suggested_next_command.h"
+#include "evaluation/evaluation_output.h"
+#include "evaluation/evaluation_tables.h"
+#include "io/csv/csv_table.h"
+#include "io/log/log_table.h"
+#include "next_command.h"
 
 static void check_output_ending(const char *path)
 {
@@ -49,13 +49,13 @@ static struct evaluation *evaluate_files(const struct command_line *line)
 }
 
 /* Suggests an HTML page of the truth, the tracks, and the plots.csv beside the truth, if any. */
-static void suggest_page_of_truth_and_tracks(const struct command_line *line)
+static void suggest_page(const struct command_line *line)
 {
     char *files[2] = {line->arguments[0],
-                      suggested_next_command_find_file_beside(line->arguments[0], "plots.csv")};
+                      next_command_find_beside(line->arguments[0], "plots.csv")};
 
     if (path_ends_with(line->arguments[1], ".csv")) {
-        suggested_next_command_print_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
+        next_command_print_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
     }
     free(files[1]);
 }
@@ -66,7 +66,7 @@ int command_evaluate(struct command_line *line)
     refuse_output_that_is_an_input(line);
     struct evaluation *e = evaluate_files(line);
     if (line->output != NULL && path_ends_with(line->output, ".svg")) {
-        evaluation_draw_gospa_and_counts_over_time(e, line->output);
+        evaluation_draw_gospa(e, line->output);
     } else if (line->output != NULL) {
         evaluation_write_csv_over_time(e, line->output);
     }
@@ -76,6 +76,6 @@ int command_evaluate(struct command_line *line)
         evaluation_print(e, line->by_target);
     }
     evaluation_free(e);
-    suggest_page_of_truth_and_tracks(line);
+    suggest_page(line);
     return 0;
 }

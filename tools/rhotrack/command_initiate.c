@@ -6,14 +6,14 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "initiation/initiate_hough.h"
 #include "initiation/initiate_passive.h"
 #include "initiation/initiate_passive_paper.h"
-#include "io/output/initiated_tracks_output.h"
-#include "io/scans/bearing_frame_reader.h"
-#include "io/scans/plot_scan_reader.h"
-#include "io/turns/sectors_merged_to_turns.h"
+#include "io/output/initiated_output.h"
+#include "io/scans/bearing_reader.h"
+#include "io/scans/plot_reader.h"
+#include "io/turns/merged_sectors.h"
 #include "rhotrack/tracker.h"
 
 struct initiation_run {
@@ -22,8 +22,6 @@ struct initiation_run {
     uint64_t scans, plots, plots_no_room;
     int64_t wall_us;
 };
-
-/* ---- The batch ---- */
 
 static void push_scan_to_initiator(struct initiation_run *batch, const struct rho_scan *scan,
                                    const struct rho_sensor *sensor)
@@ -47,11 +45,20 @@ static void push_scan_to_initiator(struct initiation_run *batch, const struct rh
     batch->plots_no_room += scan->num_plots - held.num_plots;
 }
 
-/*
- * Pushes the last scans that fit the initiation window; sectors of a turn are joined to one scan.
- */
-static void push_last_scans(struct initiation_run *batch, struct plot_scan_reader *reader)
+/* Reads the batch, and searches it by kernel. */
+static void search_batch_by_kernel(struct initiation_run *batch, const struct command_line *line)
 {
+    struct rho_initiator_config config;
+    struct plot_reader *reader;
+    int64_t start_us;
+
+    parameters_to_initiator(&line->parameters, &config);
+    batch->initiator = must_alloc(sizeof *batch->initiator);
+    must_succeed(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config),
+                 "initiator");
+    reader =
+        plot_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    /* the last scans that fit the initiation window; sectors of a turn are joined to one scan */
     struct revolutions revolutions = revolutions_read_last(reader, batch->initiator->config.scans);
 
     for (size_t i = 0; i < revolutions.count; i++) {
@@ -60,26 +67,10 @@ static void push_last_scans(struct initiation_run *batch, struct plot_scan_reade
         push_scan_to_initiator(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
     }
     revolutions_free(&revolutions);
-}
-
-static void read_and_search_batch_by_kernel(struct initiation_run *batch,
-                                            const struct command_line *line)
-{
-    struct rho_initiator_config config;
-    struct plot_scan_reader *reader;
-    int64_t start_us;
-
-    parameters_to_initiator(&line->parameters, &config);
-    batch->initiator = must_alloc(sizeof *batch->initiator);
-    must_succeed(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config),
-                 "initiator");
-    reader = plot_scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
-                                   line->keep_going);
-    push_last_scans(batch, reader);
     start_us = monotonic_clock_us();
     must_succeed(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH), "initiator");
     batch->wall_us += monotonic_clock_us() - start_us;
-    plot_scan_reader_report_skipped(reader);
+    plot_reader_report_skipped(reader);
     if (batch->plots_no_room) {
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
                 batch->plots_no_room, RHO_MAX_PLOTS);
@@ -88,22 +79,20 @@ static void read_and_search_batch_by_kernel(struct initiation_run *batch,
         fprintf(stderr, "rhotrack: %" PRIu32 " plots were not fully tried for tracks (work_max)\n",
                 batch->initiator->budget.plots_not_tried);
     }
-    plot_scan_reader_close(reader);
+    plot_reader_close(reader);
 }
-
-/* ---- What it found ---- */
 
 static void write_found_tracks(const struct initiation_run *batch, const char *path)
 {
-    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
     for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
         struct initiated row =
             initiated_from_candidate(i + 1, batch->time_us, &batch->initiator->candidates[i]);
 
-        initiated_tracks_output_add_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
-    initiated_tracks_output_close(found);
+    initiated_output_close(found);
 }
 
 /* Hits of each track found, in descending order, as JSON; *sum gets the sum of all hits. */
@@ -154,7 +143,7 @@ static void initiate_kernel(const struct command_line *line)
 {
     struct initiation_run batch = {.wall_us = 0};
 
-    read_and_search_batch_by_kernel(&batch, line);
+    search_batch_by_kernel(&batch, line);
     if (line->output || !line->json) {
         write_found_tracks(&batch, line->output);
     }
@@ -167,7 +156,7 @@ static void initiate_kernel(const struct command_line *line)
 /* The method of --method; by default passive for files of bearings, and kernel for plots. */
 static enum method choose_method(const struct command_line *line)
 {
-    bool has_bearings = bearing_frame_reader_file_has_bearings(line->arguments[0]);
+    bool has_bearings = bearing_reader_is_bearings(line->arguments[0]);
 
     if (!line->method) {
         return has_bearings ? METHOD_PASSIVE : METHOD_KERNEL;

@@ -10,9 +10,9 @@
 #include "base/name_hint.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
-#include "io/csv/guess_origin_and_azimuth_sense.h"
-#include "io/csv/table_dialect_and_column_names.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "io/csv/columns.h"
+#include "io/csv/guess_origin.h"
+#include "settings/initiation_methods.h"
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
 
@@ -71,9 +71,7 @@ static const char *option_name_at(size_t index)
     return index < NUM_OPTIONS ? options[index].name : NULL;
 }
 
-/* ---- Help ---- */
-
-void command_line_print_help(const struct command *command, FILE *file)
+static void print_command_help(const struct command *command, FILE *file)
 {
     fprintf(file, "Usage: rhotrack %s %s\n\n%s\nOptions:\n", command->name, command->usage,
             command->text);
@@ -97,12 +95,10 @@ static _Noreturn void print_help_and_exit(const struct command *command)
 {
     struct output output = output_open(NULL);
 
-    command_line_print_help(command, output.file);
+    print_command_help(command, output.file);
     output_close(&output);
     exit(0);
 }
-
-/* ---- Values of options ---- */
 
 static uint64_t parse_whole_number(const char *option, const char *text, uint64_t min, uint64_t max)
 {
@@ -190,7 +186,7 @@ static bool apply_setting_option(struct command_line *line, char letter, char *a
         keep_setting_as_typed(line, "--set", argument);
         return true;
     case 'N':
-        table_dialect_set_columns_option(argument);
+        columns_set_option(argument);
         keep_setting_as_typed(line, "--columns", argument);
         return true;
     case 'C':
@@ -258,8 +254,6 @@ static void store_option(struct command_line *line, char letter, char *argument)
     }
 }
 
-/* ---- The whole line ---- */
-
 /*
  * Fills getopt_long's table with the options of all commands: an option of another command then
  * gets a clearer message than getopt's own.
@@ -284,7 +278,8 @@ static const char *option_name_of_letter(int letter)
     return NULL;
 }
 
-static _Noreturn void refuse_unknown_option_with_hint(const struct command *command, char **argv)
+/* Exit 2, with the option that may be meant. */
+static _Noreturn void refuse_unknown_option(const struct command *command, char **argv)
 {
     const char *typed = argv[optind - 1], *hint;
     char name[64];
@@ -317,7 +312,7 @@ static void read_options(struct command_line *line, const struct command *comman
     opterr = 0;
     while ((letter = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
         if (letter == '?') {
-            refuse_unknown_option_with_hint(command, argv);
+            refuse_unknown_option(command, argv);
         }
         if (letter == ':') {
             fail(EXIT_USAGE, "%s: --%s needs a value", command->name,
@@ -349,14 +344,14 @@ static void set_default_origin_if_lacking(struct command_line *line, const char 
                                           struct asterix_place place)
 {
     if (place.is_given && !parameters_has_origin(&line->parameters)) {
-        asterix_set_and_report_default_origin(path, &place, &line->parameters);
+        asterix_set_default_origin(path, &place, &line->parameters);
     }
 }
 
-static void set_csv_origin_and_warn_of_clockwise_azimuths(struct command_line *line,
-                                                          const char *path)
+/* Takes the origin from the first rows, and warns of azimuths that count clockwise. */
+static void set_csv_origin(struct command_line *line, const char *path)
 {
-    const struct origin_and_azimuth_sense look = guess_origin_and_azimuth_sense_from_rows(path);
+    const struct origin_and_azimuth_sense look = guess_origin_from_rows(path);
 
     set_default_origin_if_lacking(
         line, path, (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
@@ -372,8 +367,7 @@ static void set_csv_origin_and_warn_of_clockwise_azimuths(struct command_line *l
 /*
  * Selects the arguments that may hold plots, from which an origin can be taken: none of evaluate.
  */
-static void note_which_arguments_are_plot_files(struct command_line *line,
-                                                const struct command *command)
+static void note_plot_arguments(struct command_line *line, const struct command *command)
 {
     /* the first argument of plot is the kind of picture */
     const int skipped = strcmp(command->name, "plot") == 0;
@@ -402,7 +396,7 @@ void command_line_read(struct command_line *line, const struct command *command,
         fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
              line->arguments[command->max_arguments], command->name, command->usage);
     }
-    note_which_arguments_are_plot_files(line, command);
+    note_plot_arguments(line, command);
 }
 
 void refuse_output_that_is_an_input(const struct command_line *line)
@@ -465,17 +459,17 @@ static bool are_plot_files_regular(const struct command_line *line)
     return true;
 }
 
-void command_line_set_origin_and_places(struct command_line *line)
+void command_line_set_places(struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments && !parameters_has_origin(&line->parameters); i++) {
         set_default_origin_if_lacking(line, line->arguments[i],
                                       asterix_file_radar_place(line->arguments[i]));
     }
     for (int i = 0; i < line->num_plot_files; i++) {
-        set_csv_origin_and_warn_of_clockwise_azimuths(line, line->plot_files[i]);
+        set_csv_origin(line, line->plot_files[i]);
     }
     if (line->num_plot_files > 0 && are_plot_files_regular(line)) {
-        table_dialect_fail_if_columns_option_unused();
+        columns_check_option_used();
     }
     parameters_locate_sensors(&line->parameters);
 }

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 
 /* One command of the program, a row of the table in main.c. */
 struct command {
@@ -33,10 +33,7 @@ void command_line_read(struct command_line *line, const struct command *command,
  * set, converts sensors' latitudes and longitudes to local places, and warns on standard error of
  * azimuths that look clockwise.
  */
-void command_line_set_origin_and_places(struct command_line *line);
-
-/* Prints the help text of a command. */
-void command_line_print_help(const struct command *command, FILE *file);
+void command_line_set_places(struct command_line *line);
 
 /* Exit 2 where --output names one of the inputs, for commands that must not overwrite an input. */
 void refuse_output_that_is_an_input(const struct command_line *line);

@@ -6,12 +6,11 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "io/output/tracks_output.h"
-#include "io/scans/bearing_frame_reader.h"
-#include "io/scans/plot_scan_reader.h"
-#include "maintenance/maintainer_of_one_track.h"
-#include "rhotrack/detail/measurement.h"
+#include "io/scans/bearing_reader.h"
+#include "io/scans/plot_reader.h"
+#include "maintenance/maintainer.h"
 
 struct maintaining {
     struct maintainer *maintainer;
@@ -33,8 +32,7 @@ static enum maintainer_gate apply_gate_option(struct command_line *line)
     return (enum maintainer_gate)line->parameters.value[PARAMETER_GATE];
 }
 
-static void warn_that_no_input_estimation_option_is_unused(const struct command_line *line,
-                                                           enum maintainer_gate gate)
+static void warn_unused_option(const struct command_line *line, enum maintainer_gate gate)
 {
     if (gate == MAINTAIN_BEST && line->no_input_estimation) {
         fputs("rhotrack: --no-input-estimation has no effect with --gate best\n", stderr);
@@ -59,48 +57,32 @@ static void warn_of_unobservable_inputs(const struct command_line *line, enum ma
 
 /* ---- Steps ---- */
 
-static void count_plot_fates(struct maintaining *maintaining, const struct rho_scan *scan,
-                             int claimed_plot)
-{
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        bool is_valid = rho_measurement_is_valid_plot(&scan->plots[i], scan->measures);
-        enum rho_fate fate = (int64_t)i == claimed_plot ? RHO_FATE_CLAIMED
-                             : !is_valid                ? RHO_FATE_INVALID
-                             : i > MAINTAINER_ROW_MAX && maintaining->gate == MAINTAIN_BEST
-                                 ? RHO_FATE_NO_ROOM
-                                 : RHO_FATE_HELD;
-
-        maintaining->fates[fate]++;
-    }
-}
-
 static void step_and_time_scan(struct maintaining *maintaining, const struct rho_scan *scan,
                                const struct rho_sensor *sensor)
 {
     int64_t start_us = monotonic_clock_us(), took_us;
-    int row = maintainer_step_and_get_row(maintaining->maintainer, scan, sensor, NAN,
-                                          &maintaining->random);
 
+    (void)maintainer_step(maintaining->maintainer, scan, sensor, NAN, &maintaining->random);
     took_us = monotonic_clock_us() - start_us;
     maintaining->scans++;
     maintaining->sum_us += took_us;
     maintaining->max_us = took_us > maintaining->max_us ? took_us : maintaining->max_us;
-    count_plot_fates(maintaining, scan, row);
+    for (int i = 0; i < RHO_NUM_FATES; i++) {
+        maintaining->fates[i] += maintainer_fates(maintaining->maintainer)[i];
+    }
 }
 
-static void step_maintainer_and_write_all_scans(struct maintaining *maintaining,
-                                                struct plot_scan_reader *reader,
-                                                const struct command_line *line,
-                                                struct tracks_output *tracks)
+static void maintain_all_scans(struct maintaining *maintaining, struct plot_reader *reader,
+                               const struct command_line *line, struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", 0);
     uint64_t bytes = regular_file_size_or_zero(line->arguments[0]);
     const struct rho_scan *scan;
 
-    while ((scan = plot_scan_reader_next(reader))) {
+    while ((scan = plot_reader_next(reader))) {
         bool was_started = maintainer_is_started(maintaining->maintainer);
 
-        step_and_time_scan(maintaining, scan, plot_scan_reader_sensor(reader));
+        step_and_time_scan(maintaining, scan, plot_reader_sensor(reader));
         bool is_started = maintainer_is_started(maintaining->maintainer);
         if (is_started && !was_started) {
             warn_of_unobservable_inputs(line, maintaining->gate, scan);
@@ -109,8 +91,7 @@ static void step_maintainer_and_write_all_scans(struct maintaining *maintaining,
             tracks_output_write_track(tracks, scan->time_us,
                                       maintainer_report(maintaining->maintainer));
         }
-        progress_show_by_bytes(&progress, maintaining->scans, plot_scan_reader_position(reader),
-                               bytes);
+        progress_show_by_bytes(&progress, maintaining->scans, plot_reader_position(reader), bytes);
     }
     progress_end(&progress);
 }
@@ -123,7 +104,7 @@ static double mean_step_us(const struct maintaining *maintaining)
 }
 
 static void print_summary(const struct maintaining *maintaining,
-                          const struct plot_scan_reader_counts *counts)
+                          const struct plot_reader_counts *counts)
 {
     const struct rho_track_report *track = maintainer_report(maintaining->maintainer);
 
@@ -131,7 +112,7 @@ static void print_summary(const struct maintaining *maintaining,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots: %u claimed, %u misses, %lu updates "
             "refused",
             maintaining->scans, counts->plots, (unsigned)track->hits, (unsigned)track->misses,
-            maintainer_num_filter_refusals(maintaining->maintainer));
+            maintainer_refusals(maintaining->maintainer));
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
@@ -151,7 +132,7 @@ static cJSON *num_plots_by_fate_json(const struct maintaining *maintaining)
 }
 
 static void print_run_json(const struct maintaining *maintaining, const struct command_line *line,
-                           const struct plot_scan_reader_counts *counts)
+                           const struct plot_reader_counts *counts)
 {
     struct parameter_text gate = parameters_text(PARAMETER_GATE);
     char word[PARAMETER_VALUE_BYTES];
@@ -171,17 +152,17 @@ static void print_run_json(const struct maintaining *maintaining, const struct c
     cJSON_AddNumberToObject(object, "state_bytes",
                             (double)maintainer_state_bytes(maintaining->maintainer));
     cJSON_AddNumberToObject(object, "updates_refused",
-                            (double)maintainer_num_filter_refusals(maintaining->maintainer));
+                            (double)maintainer_refusals(maintaining->maintainer));
     json_print_and_delete(object);
 }
 
-static struct plot_scan_reader *open_plot_reader(const struct command_line *line)
+static struct plot_reader *open_plot_reader(const struct command_line *line)
 {
-    if (bearing_frame_reader_file_has_bearings(line->arguments[0])) {
+    if (bearing_reader_is_bearings(line->arguments[0])) {
         fail(EXIT_USAGE, "%s: maintain takes plots, but this file has bearings",
              line->arguments[0]);
     }
-    return plot_scan_reader_open(line->arguments, 1, &line->parameters, line->keep_going);
+    return plot_reader_open(line->arguments, 1, &line->parameters, line->keep_going);
 }
 
 int command_maintain(struct command_line *line)
@@ -189,18 +170,18 @@ int command_maintain(struct command_line *line)
     bool has_file = line->output || !line->json;
     struct maintaining maintaining = {.gate = apply_gate_option(line),
                                       .random = random_start(line->seed, 0, 0)};
-    struct plot_scan_reader *reader;
-    struct plot_scan_reader_counts counts;
+    struct plot_reader *reader;
+    struct plot_reader_counts counts;
     struct tracks_output *tracks;
 
-    warn_that_no_input_estimation_option_is_unused(line, maintaining.gate);
+    warn_unused_option(line, maintaining.gate);
     maintaining.maintainer =
         maintainer_new(maintaining.gate, !line->no_input_estimation, &line->parameters);
     reader = open_plot_reader(line);
     tracks =
         has_file ? tracks_output_open(line->output, &line->parameters, line->covariance) : NULL;
-    step_maintainer_and_write_all_scans(&maintaining, reader, line, tracks);
-    counts = plot_scan_reader_counts(reader);
+    maintain_all_scans(&maintaining, reader, line, tracks);
+    counts = plot_reader_counts(reader);
     if (counts.plots == 0) {
         fail(EXIT_USAGE, "%s: no plot to start the track from", line->arguments[0]);
     }
@@ -209,7 +190,7 @@ int command_maintain(struct command_line *line)
     if (line->json) {
         print_run_json(&maintaining, line, &counts);
     }
-    plot_scan_reader_close(reader);
+    plot_reader_close(reader);
     maintainer_free(maintaining.maintainer);
     return 0;
 }

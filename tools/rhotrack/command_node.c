@@ -15,13 +15,13 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
-#include "io/output/clutter_map_load_and_save.h"
-#include "io/scans/scan_interval_hint_for_single_plot_scans.h"
+#include "commands.h"
+#include "io/output/clutter_map_file.h"
+#include "io/scans/scan_interval_hint.h"
 #include "live/duplicate_senders.h"
 #include "live/metrics_page_server.h"
 #include "live/node_core.h"
-#include "live/node_lcm_log_writer.h"
+#include "live/node_log_writer.h"
 #include "live/node_loss_counts.h"
 #include "live/node_print_tracks.h"
 #include "live/node_sensor_warnings.h"
@@ -99,9 +99,8 @@ static bool is_printable_channel(const char *channel)
     return *channel == '\0';
 }
 
-static void log_message_if_channel_is_printable(struct node *node, int64_t time_us,
-                                                const char *channel, const uint8_t *data,
-                                                size_t size)
+static void log_message(struct node *node, int64_t time_us, const char *channel,
+                        const uint8_t *data, size_t size)
 {
     if (node->log && is_printable_channel(channel)) {
         node_log_put_event(node->log, time_us, channel, data, size);
@@ -226,8 +225,7 @@ static void send_and_log_message(void *context, const char *channel, const uint8
     /* failures are counted by the transport */
     (void)transport_send(node->transport, channel, data, size);
     if (node->log) {
-        log_message_if_channel_is_printable(node, transport_now_us(node->transport), channel, data,
-                                            size);
+        log_message(node, transport_now_us(node->transport), channel, data, size);
     }
 }
 
@@ -237,8 +235,7 @@ static void send_and_log_message(void *context, const char *channel, const uint8
  */
 static void print_sensor_changes(struct node *node)
 {
-    node_sensors_print_suspicion_and_silence_changes(&node->sensors, node->core,
-                                                     node->print.is_terminal ? NULL : stderr);
+    node_sensors_print_changes(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
 }
 
 /* Prints each wall (reflector) once when it is learned, and once when it is forgotten. */
@@ -260,11 +257,11 @@ static void print_wall_changes(struct node *node)
     }
 }
 
-static void print_step_sensor_and_wall_changes(void *context, const struct rho_report *report)
+static void print_step_changes(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
-    node_print_rows_or_mark_table_changed(&node->print, report);
+    node_print_rows(&node->print, report);
     print_sensor_changes(node);
     if (!node->print.is_terminal) {
         print_wall_changes(node);
@@ -342,7 +339,7 @@ static void attribute_losses_to_sensor(struct node *node, const char *channel)
 {
     struct node_loss_counts tallies[NODE_TALLIES];
     int16_t sensor_id = 0;
-    const bool has_sensor = duplicate_senders_sensor_id_of_channel(channel, &sensor_id);
+    const bool has_sensor = duplicate_senders_sensor_id(channel, &sensor_id);
 
     node_loss_counts_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
@@ -402,7 +399,7 @@ static void print_summary(const struct node *node)
     if (events_left_out > 0) {
         fprintf(stderr, "rhotrack: events not logged: %" PRIu64 "\n", events_left_out);
     }
-    node_sensors_print_suspect_and_silent(node->core, stderr);
+    node_sensors_print_all(node->core, stderr);
     if (error_lines_were_lost()) {
         fputs("rhotrack: standard error was blocked for a while: lines are missing\n", stderr);
     }
@@ -437,7 +434,7 @@ static int block_signals_to_descriptor(const sigset_t *set)
  * signals stay blocked: the handler that removes unfinished outputs (common.c) is not needed, as
  * the log is written under its own name.
  */
-static void block_signals_and_open_signal_descriptors(struct node *node)
+static void open_signal_descriptors(struct node *node)
 {
     sigset_t ends, hang_ups;
 
@@ -456,7 +453,7 @@ static void block_signals_and_open_signal_descriptors(struct node *node)
 /*
  * SIGHUP: a log rotation asks to reopen the log, or the terminal was closed, which ends the node.
  */
-static void end_if_terminal_closed_else_reopen_log(struct node *node)
+static void handle_hangup(struct node *node)
 {
     struct signalfd_siginfo info;
 
@@ -522,7 +519,7 @@ static void wait_and_serve_descriptors(struct node *node)
     if (ppoll(here, 4, &wait, NULL) > 0) {
         node->is_over |= here[0].revents != 0;
         if (here[1].revents) {
-            end_if_terminal_closed_else_reopen_log(node);
+            handle_hangup(node);
         }
         if (here[2].revents) {
             page_server_serve(node->pages);
@@ -563,10 +560,10 @@ static bool is_output_channel(const char *channel)
 static void update_scan_interval_hint(struct node *node, const struct transport_message *message)
 {
     if (node->plots.scans < HINT_SCANS && !node->print.is_terminal) {
-        scan_interval_hint_count_lone_plots(
-            &node->plots, &(struct message_event){message->received_us, message->channel,
-                                                  message->data, message->size});
-        scan_interval_hint_report_lone_plot_sensors(&node->plots);
+        scan_interval_hint_count(&node->plots,
+                                 &(struct message_event){message->received_us, message->channel,
+                                                         message->data, message->size});
+        scan_interval_hint_report_lone(&node->plots);
     }
 }
 
@@ -585,8 +582,7 @@ static void pass_message_to_core_and_log(struct node *node, const struct transpo
     node->taken++;
     update_scan_interval_hint(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
-        log_message_if_channel_is_printable(node, message->received_us, message->channel,
-                                            message->data, message->size);
+        log_message(node, message->received_us, message->channel, message->data, message->size);
     }
     node_core_take_message(node->core, message->channel, message->data, message->size,
                            message->received_us);
@@ -644,7 +640,7 @@ static void send_status_and_clutter(struct node *node)
 {
     const struct node_core_losses losses = collect_losses(node);
 
-    node_core_send_all_status_messages(node->core, &losses);
+    node_core_send_status(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
         node_core_send_clutter_map(node->core);
     }
@@ -652,8 +648,7 @@ static void send_status_and_clutter(struct node *node)
 
 static void refresh_track_table(struct node *node, bool is_end)
 {
-    if (!node_print_refresh_table_and_has_no_error(&node->print, node->core,
-                                                   transport_url(node->transport), is_end)) {
+    if (!node_print_refresh(&node->print, node->core, transport_url(node->transport), is_end)) {
         if (errno != EPIPE) {
             fprintf(stderr, "rhotrack: standard output: %s\n", strerror(errno));
             node->exit_code = EXIT_RUNTIME;
@@ -727,8 +722,7 @@ int command_node(struct command_line *line)
 {
     struct node node = {
         .status_us = monotonic_clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
-    const struct node_core_events events = {&node, send_and_log_message,
-                                            print_step_sensor_and_wall_changes,
+    const struct node_core_events events = {&node, send_and_log_message, print_step_changes,
                                             print_sensor_restart, print_clock_change};
     const bool is_live = transport_url_is_live(line->lcm);
     const struct node_log_limits limits = log_limits_of_parameters(&line->parameters);
@@ -740,13 +734,13 @@ int command_node(struct command_line *line)
     }
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
-    clutter_map_file_refuse_same_file(line->clutter_map, line->log, "log");
+    clutter_map_file_check_output(line->clutter_map, line->log, "log");
     if (line->clutter_map && transport_url_is_same_file(line->lcm, line->clutter_map)) {
         fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
     }
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
-    error_lines_stamp_and_name_on_stderr(&line->parameters, is_live);
+    error_lines_stamp_stderr(&line->parameters, is_live);
     node_core_set_show(node.core, show);
     if (line->commands) {
         node_core_allow_commands(node.core);
@@ -760,7 +754,7 @@ int command_node(struct command_line *line)
     }
     node.clutter = clutter_map_file_open(line->clutter_map, &line->parameters,
                                          is_restored ? NULL : node_core_clutter_map(node.core));
-    block_signals_and_open_signal_descriptors(&node);
+    open_signal_descriptors(&node);
     start_end_watchdog(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     node.pages = page_server_open(line->metrics, "/metrics",

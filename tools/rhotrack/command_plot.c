@@ -6,16 +6,16 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
-#include "io/output/clutter_map_load_and_save.h"
+#include "commands.h"
+#include "io/output/clutter_map_file.h"
 #include "picture/gnuplot_picture_file.h"
 #include "picture/interactive_map_page.h"
 #include "picture/picture_data.h"
-#include "picture/plot_bearing_rays_map.h"
+#include "picture/plot_bearings.h"
+#include "picture/plot_by_time.h"
 #include "picture/plot_clutter_map.h"
 #include "picture/plot_errors.h"
 #include "picture/plot_parameter_space.h"
-#include "picture/plot_tracks_and_plots_by_time.h"
 #include "picture/plot_votes.h"
 
 static void require_points(const struct plot_points *points, const char *kind, const char *what)
@@ -28,7 +28,7 @@ static void require_points(const struct plot_points *points, const char *kind, c
 /*
  * Exit 2 where the data have no times but the truth's, at which the slider of an HTML page stops.
  */
-static void require_data_besides_truth_for_page(const struct picture_data *data)
+static void check_page_has_data(const struct picture_data *data)
 {
     if (data->plots.count + data->tracks.count + data->bearings.count == 0) {
         fail(EXIT_USAGE, "plot: a page needs plots, tracks or bearings beside the truth; "
@@ -83,23 +83,23 @@ static void compute_votes_of_method(struct drawn_results *results, const struct 
              method_name(method));
     }
     method_suggest_parameters(method, &line->parameters);
-    results->revolutions = plot_parameter_space_read_last_scans(
+    results->revolutions = plot_parameter_space_read(
         data, &line->parameters, (size_t)line->parameters.value[PARAMETER_SCANS]);
     results->votes = plot_votes_compute_pictures(method, &results->revolutions, &line->parameters);
 }
 
-static struct drawn_results compute_errors_or_votes_to_draw(const char *kind,
-                                                            const struct picture_data *data,
-                                                            struct command_line *line)
+/* Computes the errors or the votes that the picture shows. */
+static struct drawn_results compute_drawing(const char *kind, const struct picture_data *data,
+                                            struct command_line *line)
 {
     const struct parameters *parameters = &line->parameters;
     struct drawn_results results = {.revolutions = {.count = 0}};
     if (strcmp(kind, "errors") == 0) {
-        results.errors = plot_errors_find_track_position_errors(data, parameters);
+        results.errors = plot_errors_find(data, parameters);
     } else if (strcmp(kind, "parameter-space") == 0 && line->method) {
         compute_votes_of_method(&results, data, line);
     } else if (strcmp(kind, "parameter-space") == 0) {
-        results.revolutions = plot_parameter_space_read_last_scans(data, parameters, RHO_MAX_SCANS);
+        results.revolutions = plot_parameter_space_read(data, parameters, RHO_MAX_SCANS);
     }
     return results;
 }
@@ -119,7 +119,7 @@ static void draw_picture_of_kind(const char *kind, struct picture *picture,
     } else if (results->votes) {
         plot_votes(picture, results->votes);
     } else {
-        plot_hough_votes_and_track_lines(picture, data, &results->revolutions);
+        plot_hough_votes(picture, data, &results->revolutions);
     }
 }
 
@@ -167,12 +167,12 @@ int command_plot(struct command_line *line)
         picture_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_data_for_kind(kind, &data);
     if (html_page_path_is_html(line->output)) {
-        require_data_besides_truth_for_page(&data);
+        check_page_has_data(&data);
         html_page_write(line->output, &data, &line->parameters);
         picture_data_free(&data);
         return 0;
     }
-    struct drawn_results results = compute_errors_or_votes_to_draw(kind, &data, line);
+    struct drawn_results results = compute_drawing(kind, &data, line);
     struct picture picture = picture_open(line->output, 1100, 680);
     draw_picture_of_kind(kind, &picture, &data, &results);
     picture_draw_and_close(&picture);

@@ -8,13 +8,13 @@
 #include <time.h>
 
 #include "base/common.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "io/asterix/asterix_udp_receiver.h"
-#include "io/log/files_to_message_stream.h"
 #include "io/log/lcm_log.h"
-#include "io/log/message_shift_time_number_epoch.h"
-#include "io/scans/scan_interval_hint_for_single_plot_scans.h"
-#include "live/publish_stop_signals_epoch_and_send.h"
+#include "io/log/message_shift.h"
+#include "io/log/message_source.h"
+#include "io/scans/scan_interval_hint.h"
+#include "live/publish_stop.h"
 #include "rhotrack/udpm.h"
 #include "transport/transport.h"
 
@@ -48,9 +48,8 @@ struct player {
     struct scan_interval_hint plots; /* scan intervals of the plots in the first pass */
 };
 
-/* ---- Time ---- */
-
-static bool is_playback_stopped_by_time_or_signal(const struct player *player)
+/* Whether the time of the playback is over, or a signal has come. */
+static bool is_playback_stopped(const struct player *player)
 {
     return player->is_over || publish_is_stopped();
 }
@@ -73,7 +72,7 @@ static void sleep_until(struct player *player, uint64_t deadline_ns)
                           ? player->start_ns + (uint64_t)(player->line->seconds * 1e9)
                           : UINT64_MAX;
 
-    while (!is_playback_stopped_by_time_or_signal(player) && now_ns < deadline_ns) {
+    while (!is_playback_stopped(player) && now_ns < deadline_ns) {
         uint64_t next_ns = deadline_ns - now_ns > PIECE_NS ? now_ns + PIECE_NS : deadline_ns;
         struct timespec next = {(time_t)(next_ns / NS_PER_S), (long)(next_ns % NS_PER_S)};
 
@@ -96,13 +95,11 @@ static void wait_for_event_time(struct player *player, int64_t utime)
     uint64_t deadline_ns =
         player->start_ns + (uint64_t)(fmin(fmax(after_s, 0), LATEST_S) * NS_PER_S);
     sleep_until(player, deadline_ns);
-    if (player->line->speed > 0 && !is_playback_stopped_by_time_or_signal(player)) {
+    if (player->line->speed > 0 && !is_playback_stopped(player)) {
         player->lag_max_s =
             fmax(player->lag_max_s, (double)(monotonic_ns() - deadline_ns) / NS_PER_S);
     }
 }
-
-/* ---- What goes on from pass to pass ---- */
 
 static struct channel *find_or_add_channel(struct player *player, const char *name)
 {
@@ -130,7 +127,7 @@ static void record_first_pass_event(struct player *player, const struct message_
     if (player->passes > 0) {
         return;
     }
-    scan_interval_hint_count_lone_plots(&player->plots, event);
+    scan_interval_hint_count(&player->plots, event);
     player->times += player->times == 0 || event->utime != player->last_us;
     player->last_us = event->utime;
     if (message_scan_number(event->data, event->size, &scan)) {
@@ -183,18 +180,10 @@ static const uint8_t *adapt_message_to_pass(struct player *player,
     return player->buffer;
 }
 
-/* ---- Sending ---- */
-
-static void send_event(struct player *player, const struct message_event *event)
-{
-    player->skipped += !publish_send_message(player->transport, event->channel,
-                                             adapt_message_to_pass(player, event), event->size);
-}
-
 static struct message_source *open_input_files_as_messages(const struct command_line *line)
 {
-    return message_source_open_logs_or_csv(line->arguments, line->num_arguments, &line->parameters,
-                                           line->keep_going);
+    return message_source_open(line->arguments, line->num_arguments, &line->parameters,
+                               line->keep_going);
 }
 
 /* Sends all messages of the source once at their times, and closes the source. */
@@ -202,15 +191,17 @@ static void play_pass(struct player *player, struct message_source *source)
 {
     struct message_event event;
 
-    while (!is_playback_stopped_by_time_or_signal(player) && message_source_next(source, &event)) {
+    while (!is_playback_stopped(player) && message_source_next(source, &event)) {
         if (!player->start_ns) {
             player->start_ns = monotonic_ns();
             player->first_us = event.utime;
         }
         record_first_pass_event(player, &event);
         wait_for_event_time(player, event.utime);
-        if (!is_playback_stopped_by_time_or_signal(player)) {
-            send_event(player, &event);
+        if (!is_playback_stopped(player)) {
+            player->skipped +=
+                !publish_send_message(player->transport, event.channel,
+                                      adapt_message_to_pass(player, &event), event.size);
         }
     }
     message_source_report_skipped(source);
@@ -218,8 +209,6 @@ static void play_pass(struct player *player, struct message_source *source)
     player->passes++;
     player->shift_us = pass_duration_us(player) * (double)player->passes;
 }
-
-/* ---- Epochs ---- */
 
 /*
  * True where the header of a CSV file (its first line that is not a comment) has a column epoch.
@@ -250,7 +239,7 @@ static bool has_epoch_column(const char *path)
  * The epoch by which messages of CSV files show that their sensors restarted. 0 where a log or a
  * column epoch already gives one.
  */
-static int32_t restart_epoch_of_csv_messages_or_zero(const struct command_line *line)
+static int32_t restart_epoch_or_zero(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         if (lcm_log_is_log(line->arguments[i]) || has_epoch_column(line->arguments[i])) {
@@ -278,7 +267,7 @@ static void print_summary(const struct player *player)
 
 int command_publish(struct command_line *line)
 {
-    struct player player = {.line = line, .epoch = restart_epoch_of_csv_messages_or_zero(line)};
+    struct player player = {.line = line, .epoch = restart_epoch_or_zero(line)};
     struct message_source *source;
 
     if (asterix_udp_receiver_is_url(line->arguments[0])) {
@@ -294,7 +283,7 @@ int command_publish(struct command_line *line)
         line); /* input errors are reported before the output log is truncated */
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
     play_pass(&player, source);
-    while (line->loop && !is_playback_stopped_by_time_or_signal(&player)) {
+    while (line->loop && !is_playback_stopped(&player)) {
         play_pass(&player, open_input_files_as_messages(line));
     }
     print_summary(&player);

@@ -4,8 +4,8 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
-#include "io/scans/merge_plots_and_bearings.h"
+#include "commands.h"
+#include "io/scans/merged_inputs.h"
 #include "pipeline/pipeline.h"
 #include "registration/register.h"
 #include "registration/register_output.h"
@@ -25,7 +25,7 @@ static void add_scan_or_fail(struct register_data *data, const struct input *inp
     if (input->sensor) {
         sensor = *input->sensor;
     } else {
-        parameters_to_sensor_or_defaults(parameters, input->scan->sensor_id, &sensor);
+        parameters_sensor_or_default(parameters, input->scan->sensor_id, &sensor);
         if (unplaced->is_any && unplaced->sensor_id != sensor.sensor_id) {
             fail(EXIT_USAGE,
                  "register: radars %d and %d have no known place; give columns sensor_x_m and "
@@ -43,8 +43,8 @@ static void add_scan_or_fail(struct register_data *data, const struct input *inp
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)
 {
-    struct merged_inputs *inputs = merged_inputs_open_plots_and_bearings(
-        line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct merged_inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
+                                                      &line->parameters, line->keep_going);
     struct progress progress = progress_start("scans", 0);
     struct unplaced unplaced = {.is_any = false};
     uint64_t done = 0, skipped;
@@ -59,20 +59,9 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                merged_inputs_total_bytes(inputs));
     }
     progress_end(&progress);
-    skipped = merged_inputs_step_and_plot_counts(inputs).rows_skipped;
+    skipped = merged_inputs_counts(inputs).rows_skipped;
     merged_inputs_close(inputs);
     return skipped;
-}
-
-static void check_enough_radars(const struct register_data *data)
-{
-    if (register_num_radars(data) == 0) {
-        fail(EXIT_USAGE, "register: the input has no plots");
-    }
-    if (register_num_radars(data) == 1) {
-        fail(EXIT_USAGE,
-             "register: the input has only one radar; biases need targets that two or more see");
-    }
 }
 
 static void print_biases(const struct command_line *line, const struct register_result *result,
@@ -103,7 +92,13 @@ int command_register(struct command_line *line)
     pipeline_options_to_parameters(&line->parameters,
                                    &(struct pipeline_options){.gate = line->gate});
     rows_skipped = read_scans_counting_bad_rows(line, data);
-    check_enough_radars(data);
+    if (register_num_radars(data) == 0) {
+        fail(EXIT_USAGE, "register: the input has no plots");
+    }
+    if (register_num_radars(data) == 1) {
+        fail(EXIT_USAGE,
+             "register: the input has only one radar; biases need targets that two or more see");
+    }
     result = register_estimate_biases(data, &pipeline);
     if (result.targets == 0) {
         fail(EXIT_RUNTIME, "register: no target was tracked by two radars at the same time, within "

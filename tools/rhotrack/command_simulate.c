@@ -4,9 +4,9 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
+#include "next_command.h"
 #include "scene/scene.h"
-#include "suggested_next_command.h"
 
 static void simulate_runs(const struct command_line *line, const struct scene *scene)
 {
@@ -46,19 +46,6 @@ static _Noreturn void fail_with_scene_hint(const char *name)
          hint ? ", did you mean `" : "", hint ? hint : "", hint ? "`?" : "", list);
 }
 
-/* Exit 2 for --config: a scene holds all its settings itself, and --set changes them. */
-static void refuse_config_option(const struct command_line *line)
-{
-    bool has_any = line->parameters.num_sensors > 0;
-
-    for (int i = 0; i < NUM_PARAMETERS; i++) {
-        has_any = has_any || line->parameters.source[i] > SOURCE_METHOD;
-    }
-    if (has_any) {
-        fail(EXIT_USAGE, "simulate: a scene takes no --config; its parameters are in its settings");
-    }
-}
-
 /* Suggests tracking the simulated plots and bearings with the scenario.ini of the scene. */
 static void suggest_track_command(const struct command_line *line)
 {
@@ -79,7 +66,7 @@ static void suggest_track_command(const struct command_line *line)
         words[count++] = config;
         words[count++] = "-o";
         words[count++] = tracks;
-        suggested_next_command_print_on_terminal(line, words);
+        next_command_print(line, words);
     }
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         free(files[i]);
@@ -100,7 +87,15 @@ int command_simulate(struct command_line *line)
     if (!scene) {
         fail_with_scene_hint(line->arguments[0]);
     }
-    refuse_config_option(line);
+    /* Exit 2 for --config: a scene holds all its settings itself, and --set changes them. */
+    bool has_any = line->parameters.num_sensors > 0;
+
+    for (int i = 0; i < NUM_PARAMETERS; i++) {
+        has_any = has_any || line->parameters.source[i] > SOURCE_METHOD;
+    }
+    if (has_any) {
+        fail(EXIT_USAGE, "simulate: a scene takes no --config; its parameters are in its settings");
+    }
     if (line->runs > 1) {
         simulate_runs(line, scene);
     } else {

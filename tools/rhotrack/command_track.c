@@ -11,20 +11,20 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
-#include "initiation/search_last_bearing_frames.h"
-#include "io/output/clutter_map_load_and_save.h"
+#include "commands.h"
+#include "initiation/last_bearings.h"
+#include "io/output/clutter_map_file.h"
 #include "io/output/tracks_output.h"
-#include "io/output/zone_events_and_counts_output.h"
-#include "io/scans/bearing_frame_reader.h"
-#include "io/scans/merge_plots_and_bearings.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/output/zone_output.h"
+#include "io/scans/bearing_reader.h"
+#include "io/scans/merged_inputs.h"
+#include "io/scans/plot_reader.h"
+#include "next_command.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/pipeline_show_ghosts_votes_hypotheses.h"
-#include "settings/initiation_method_names_and_configs.h"
-#include "suggested_next_command.h"
+#include "pipeline/pipeline_show.h"
+#include "settings/initiation_methods.h"
 
 struct tracking {
     struct pipeline pipeline;
@@ -34,8 +34,6 @@ struct tracking {
     struct no_tracks seen;
     int64_t sum_us, max_us;
 };
-
-/* ---- Steps ---- */
 
 /* Gives a sensor's description to the tracker; called before each of its scans, as it may move. */
 static void set_sensor_of_tracker(struct tracking *tracking, const struct rho_sensor *sensor)
@@ -64,8 +62,7 @@ static void check_and_set_passive_sensors(struct tracking *tracking,
         struct parameters customary = *parameters;
 
         method_suggest_parameters(METHOD_PASSIVE, &customary);
-        bearing_sensors_fail_if_too_many_or_far(sensors, count, &tracking->pipeline.passive->batch,
-                                                &customary);
+        bearing_sensors_check(sensors, count, &tracking->pipeline.passive->batch, &customary);
     }
     for (size_t i = 0; i < count; i++) {
         struct rho_sensor sensor;
@@ -110,7 +107,7 @@ static void write_show_message(void *context, const char *channel, const uint8_t
 {
     const struct shown *shown = context;
 
-    tracks_output_write_message_to_log(shown->tracks, shown->time_us, channel, data, size);
+    tracks_output_log_message(shown->tracks, shown->time_us, channel, data, size);
 }
 
 static void step_and_write_input(struct tracking *tracking, const struct input *input,
@@ -118,7 +115,7 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
 {
     step_and_time_input(tracking, input);
     if (tracking->pipeline.zones) {
-        zone_events_output_write_events(&tracking->zones, tracking->pipeline.zones);
+        zone_events_output_write(&tracking->zones, tracking->pipeline.zones);
     }
     if (tracks) {
         tracks_output_write_report(tracks, tracking->pipeline.report);
@@ -151,8 +148,6 @@ static void step_and_write_all_inputs(struct tracking *tracking, struct merged_i
     }
     progress_end(&progress);
 }
-
-/* ---- A file that grows ---- */
 
 static volatile sig_atomic_t is_stopped;
 
@@ -192,13 +187,11 @@ static bool step_complete_scans(struct tracking *tracking, struct merged_inputs 
  * Steps scans as the file grows, until a signal, the end of a pipe, or the end of the file. Returns
  * why the file ended ("has become shorter"), or NULL.
  */
-static const char *track_growing_file_until_signal_or_end(struct tracking *tracking,
-                                                          struct merged_inputs *inputs,
-                                                          struct tracks_output *tracks,
-                                                          int64_t quiet_us)
+static const char *track_growing_file(struct tracking *tracking, struct merged_inputs *inputs,
+                                      struct tracks_output *tracks, int64_t quiet_us)
 {
     const struct timespec pause = {.tv_nsec = 100000000};
-    struct plot_scan_reader *reader = merged_inputs_scan_reader(inputs);
+    struct plot_reader *reader = merged_inputs_scan_reader(inputs);
     uint64_t position = 0;
     int64_t since_us = monotonic_clock_us();
     const char *why = NULL;
@@ -206,18 +199,18 @@ static const char *track_growing_file_until_signal_or_end(struct tracking *track
     while (!is_stopped) {
         (void)clutter_map_file_save_if_due(&tracking->clutter,
                                            &tracking->pipeline.tracker->clutter_map);
-        why = plot_scan_reader_why_cannot_be_followed(
+        why = plot_reader_why_not_followed(
             reader); /* rows added before the file ended are still read */
         if (step_complete_scans(tracking, inputs, tracks) ||
-            position != merged_inputs_bytes_read(inputs) || plot_scan_reader_is_mid_row(reader)) {
+            position != merged_inputs_bytes_read(inputs) || plot_reader_is_mid_row(reader)) {
             since_us = monotonic_clock_us();
             position = merged_inputs_bytes_read(inputs);
         }
-        if (why || !plot_scan_reader_waits_for_rows(reader)) {
+        if (why || !plot_reader_waits(reader)) {
             break;
         }
         if (monotonic_clock_us() - since_us >= quiet_us) {
-            plot_scan_reader_complete_scans_so_far(reader);
+            plot_reader_complete_scans(reader);
         }
         nanosleep(&pause, NULL);
     }
@@ -238,10 +231,8 @@ static int64_t follow_quiet_us(const struct parameters *parameters)
 }
 
 /* Tracks a growing input to its end; scans still incomplete at the end are stepped as they are. */
-static const char *follow_input_and_return_why_it_ended(struct tracking *tracking,
-                                                        struct merged_inputs *inputs,
-                                                        struct tracks_output *tracks,
-                                                        const struct parameters *parameters)
+static const char *follow_input(struct tracking *tracking, struct merged_inputs *inputs,
+                                struct tracks_output *tracks, const struct parameters *parameters)
 {
     struct input input;
     const char *why;
@@ -251,19 +242,16 @@ static const char *follow_input_and_return_why_it_ended(struct tracking *trackin
     if (tracks) {
         tracks_output_flush(tracks);
     }
-    why = track_growing_file_until_signal_or_end(tracking, inputs, tracks,
-                                                 follow_quiet_us(parameters));
-    plot_scan_reader_end_reading(merged_inputs_scan_reader(inputs));
+    why = track_growing_file(tracking, inputs, tracks, follow_quiet_us(parameters));
+    plot_reader_end_reading(merged_inputs_scan_reader(inputs));
     while ((input = merged_inputs_next(inputs)).scan) {
         step_and_write_input(tracking, &input, tracks);
     }
     return why;
 }
 
-/* ---- What it comes to ---- */
-
 static double mean_step_us(const struct tracking *tracking,
-                           const struct merged_inputs_step_and_plot_counts *counts)
+                           const struct merged_inputs_counts *counts)
 {
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
@@ -281,7 +269,7 @@ static const char *advice_on_late_scans(const struct parameters *parameters, uin
 }
 
 static void print_summary(const struct tracking *tracking,
-                          const struct merged_inputs_step_and_plot_counts *counts,
+                          const struct merged_inputs_counts *counts,
                           const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
@@ -417,7 +405,7 @@ static double count_known_echoes(const struct rho_clutter_map *map)
 }
 
 static void print_run_json(const struct tracking *tracking, const struct merged_inputs *inputs,
-                           const struct merged_inputs_step_and_plot_counts *counts,
+                           const struct merged_inputs_counts *counts,
                            const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
@@ -471,21 +459,11 @@ static void open_pipeline(struct tracking *tracking, const struct merged_inputs 
     check_and_set_passive_sensors(tracking, inputs, parameters);
 }
 
-/* ---- The command ---- */
-
-static void check_clutter_map_is_separate(const struct command_line *line)
-{
-    for (int i = 0; i < line->num_arguments; i++) {
-        clutter_map_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
-    }
-    clutter_map_file_refuse_same_file(line->clutter_map, line->output, "output");
-}
-
 static struct merged_inputs *open_inputs(const struct command_line *line)
 {
     if (!line->follow) {
-        return merged_inputs_open_plots_and_bearings(line->arguments, line->num_arguments,
-                                                     &line->parameters, line->keep_going);
+        return merged_inputs_open(line->arguments, line->num_arguments, &line->parameters,
+                                  line->keep_going);
     }
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
@@ -517,7 +495,7 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
                                          const struct merged_inputs *inputs,
                                          const struct command_line *line)
 {
-    struct merged_inputs_step_and_plot_counts counts = merged_inputs_step_and_plot_counts(inputs);
+    struct merged_inputs_counts counts = merged_inputs_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
     if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
@@ -536,21 +514,20 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
  * Suggests evaluate where a truth.csv stands beside the plots, else a page of the tracks. Notes a
  * scenario.ini beside the plots that was not used.
  */
-static void suggest_evaluate_or_page_command(const struct command_line *line)
+static void suggest_after_track(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
-    char *truth = suggested_next_command_find_file_beside(plots, "truth.csv");
-    char *config = suggested_next_command_find_file_beside(plots, "scenario.ini");
+    char *truth = next_command_find_beside(plots, "truth.csv");
+    char *config = next_command_find_beside(plots, "scenario.ini");
 
     if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
         fprintf(stderr, "rhotrack: %s is beside the plots but was not used (--config)\n", config);
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
-        suggested_next_command_can_read_file(line, truth)) {
-        suggested_next_command_print_on_terminal(
-            line, (const char *[]){"evaluate", truth, line->output, NULL});
+        next_command_can_read(line, truth)) {
+        next_command_print(line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
-        suggested_next_command_print_page(line, line->arguments, line->num_arguments, line->output);
+        next_command_print_page(line, line->arguments, line->num_arguments, line->output);
     }
     free(truth);
     free(config);
@@ -566,7 +543,10 @@ int command_track(struct command_line *line)
 
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
-    check_clutter_map_is_separate(line);
+    for (int i = 0; i < line->num_arguments; i++) {
+        clutter_map_file_check_output(line->clutter_map, line->arguments[i], "input");
+    }
+    clutter_map_file_check_output(line->clutter_map, line->output, "output");
     if (line->show && !tracks_output_path_is_log(line->output)) {
         fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
     }
@@ -581,7 +561,7 @@ int command_track(struct command_line *line)
     }
     tracking.zones = open_zone_events_output(line);
     if (line->follow) {
-        why = follow_input_and_return_why_it_ended(&tracking, inputs, tracks, &line->parameters);
+        why = follow_input(&tracking, inputs, tracks, &line->parameters);
     } else {
         step_and_write_all_inputs(&tracking, inputs, tracks,
                                   !line->output && isatty(STDOUT_FILENO));
@@ -598,7 +578,7 @@ int command_track(struct command_line *line)
         fail(EXIT_RUNTIME, "%s %s: --follow ends", line->arguments[0], why);
     }
     if (has_tracks) {
-        suggest_evaluate_or_page_command(line);
+        suggest_after_track(line);
     }
     return is_saved ? 0 : EXIT_RUNTIME;
 }

@@ -8,8 +8,8 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 #include "command_line.h"
-#include "commands_and_parsed_line.h"
-#include "io/csv/table_dialect_and_column_names.h"
+#include "commands.h"
+#include "io/csv/columns.h"
 #include "rhotrack/rhotrack.h"
 
 #define INPUT_FORMATS                                                                              \
@@ -278,16 +278,16 @@ int main(int argc, char **argv)
         return 0;
     }
     if (command_lab_has(argv[1])) {
-        command_lab_execute_without_return(argv);
+        command_lab_execute(argv);
     }
     command = must_find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);
     if (command->run == command_convert) {
-        command_convert_refuse_radar_as_tracks(&line);
+        convert_refuse_radar(&line);
     }
-    command_line_set_origin_and_places(&line);
+    command_line_set_places(&line);
     const int exit_code = command->run(&line);
 
-    table_dialect_fail_if_columns_option_unused();
+    columns_check_option_used();
     return exit_code;
 }

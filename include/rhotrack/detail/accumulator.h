@@ -200,7 +200,7 @@ void rho_peak_list_offer(struct rho_peak_list *list, struct rho_accumulator_peak
  * Sorts the peaks, best first, and drops those with less than min_share of the final votes_max.
  * Cost: n log n.
  */
-void rho_peak_list_drop_weak_and_sort(struct rho_peak_list *list);
+void rho_peak_list_sort(struct rho_peak_list *list);
 
 /*
  * Suppresses peaks near a better one. The list is sorted, best first: each peak that is kept drops

@@ -54,7 +54,7 @@ unsigned rho_angle_continued_ends(float from_rad, float to_rad, float next_from_
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 
 /* True where both ends of a sector are finite and within -2 pi .. 2 pi. */
-int rho_angle_are_sector_ends_valid(float from_rad, float to_rad);
+int rho_angle_is_valid_sector(float from_rad, float to_rad);
 
 /*
  * The line through (x_m, y_m) along (dx, dy), which is not (0, 0) but finite (else NaN); theta =

@@ -20,6 +20,11 @@ extern "C" {
 #define RHO_PI 3.14159274f
 #define RHO_TWO_PI 6.28318548f
 #define RHO_HALF_PI 1.57079637f
+#define RHO_LOG_TWO_PI 1.83787707f
+#define RHO_ROOT_TWO_PI 2.50662827f
+
+/* Largest angle of rho_sin, rho_cos and rho_angle_wrap, either way: 16 turns. */
+#define RHO_ANGLE_MAX_RAD 100.0f
 
 /*
  * Reads a float's bits, and makes a float of bits. By a union: with -ffreestanding a memcpy of four
@@ -42,6 +47,22 @@ static inline float rho_float_of(uint32_t bits)
     union rho_binary32 binary;
     binary.bits = bits;
     return binary.v;
+}
+
+/* Bits of a float without its sign: 0 for +0 and -0 alone. No stack. */
+static inline uint32_t rho_size_bits(float v)
+{
+    return rho_float_bits(v) << 1;
+}
+
+/*
+ * angle_rad - quarters pi/2, with pi/2 in three parts (Cody and Waite). The first two have so few
+ * bits that their products with a count up to 64 are exact. No stack.
+ */
+static inline float rho_minus_quarters(float angle_rad, float quarters)
+{
+    return ((angle_rad - quarters * 1.5703125f) - quarters * 4.83751296997070312e-4f) -
+           quarters * 7.54978995489188216e-8f;
 }
 
 /* The larger and the smaller of two numbers; b where they cannot be compared (NaN). No stack. */

@@ -80,8 +80,8 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
  * The angle delta = |beta_b| - |beta_a| between two bearings, without their crossing; -pi where the
  * bearings point to different sides of the base. Constant cost.
  */
-float rho_crossing_angle_or_minus_pi_rad(const struct rho_crossing_base *base, float bearing_a_rad,
-                                         float bearing_b_rad);
+float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing_a_rad,
+                             float bearing_b_rad);
 
 /*
  * Covariance of a crossing, xx, xy, yy, for independent errors of the bearings: a bearing's error
@@ -91,9 +91,6 @@ float rho_crossing_angle_or_minus_pi_rad(const struct rho_crossing_base *base, f
 void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_a_rad,
                              float bearing_b_rad, float sigma_a_rad, float sigma_b_rad,
                              float covariance_m2[3]);
-
-/* Name of a crossing's fate in lower case ("meets", ...); "unknown" for any other value. */
-const char *rho_crossing_fate_name(enum rho_crossing_fate fate);
 
 #ifdef __cplusplus
 }

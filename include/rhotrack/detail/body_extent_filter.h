@@ -50,7 +50,7 @@ void rho_body_rotate_covariance(const struct rho_body_filter *body, const float 
  * Upper bound of the variance along the body, for gates: the estimate, and a share of the prior
  * that falls with the number of plots.
  */
-float rho_body_along_variance_bound_m2(const struct rho_body_filter *body);
+float rho_body_along_bound_m2(const struct rho_body_filter *body);
 
 /* Covariance of a random place on the body, in x and y: xx, yx, yy. Constant cost. */
 void rho_body_place_covariance(const struct rho_body_filter *body, float xx_yx_yy[3]);
@@ -70,7 +70,7 @@ struct rho_body_look {
  * would have: it falls with n as a share of the most plots that a look ever had, as scatterers stay
  * the same. Constant cost.
  */
-float rho_body_share_of_variance_of_plot_mean(const struct rho_body_filter *body, unsigned n);
+float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned n);
 
 /*
  * Updates the extent by the plots of one look, after the reference point was updated with them.

@@ -28,7 +28,10 @@
 extern "C" {
 #endif
 
-/* Speed, as a multiple of the notch's half width, up to which a target may be standing. */
+/*
+ * Speed up to which a target may be standing, as a multiple of the notch's half width and of the
+ * speed's sigma.
+ */
 #define RHO_NOTCH_STAND_WIDTHS 2.0f
 
 /* A look that yields no plot of a target. */

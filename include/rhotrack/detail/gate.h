@@ -20,8 +20,6 @@
 extern "C" {
 #endif
 
-/* Hough clutter elimination. */
-
 /* Planes of velocity space that the Hough gate uses; values to be or-ed. */
 #define RHO_GATE_PLANE_XY 1u
 #define RHO_GATE_PLANE_XZ 2u
@@ -59,10 +57,7 @@ RHO_MUST_CHECK enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough,
  * planes, m/s; the paper's (29), (30). NaN where the velocity is. Cost: about 45 instructions.
  * Stack: 8 bytes.
  */
-float rho_gate_hough_velocity_distance_from_lines_mps(const struct rho_gate_hough *hough,
-                                                      const float velocity_mps[3]);
-
-/* Gate of the nearest plot. */
+float rho_gate_hough_distance_mps(const struct rho_gate_hough *hough, const float velocity_mps[3]);
 
 /*
  * The range rate that a track's prediction expects, its variance, and its covariances with the

@@ -81,8 +81,7 @@ RHO_MUST_CHECK enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
  * Prunes ghosts from a filled matrix by a rule. Returns the number of crossings removed.
  * Cost: RHO_MAX_BEARINGS^3 at most. Stack: 300 bytes.
  */
-unsigned rho_ghost_prune_and_count_removed(struct rho_ghost_matrix *matrix,
-                                           enum rho_ghost_rule rule);
+unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule);
 
 /* Name of a reason in lower case ("kept", "sides", ...); "unknown" for any other value. */
 const char *rho_ghost_reason_name(enum rho_ghost_reason reason);

@@ -17,7 +17,7 @@
  *                                        a counter counts.
  *
  * Tracks have slots in the pool. One scan is: rho_hypotheses_predict,
- * rho_hypotheses_clear_candidates_get_gate_box, rho_hypotheses_score_plot for each plot near the
+ * rho_hypotheses_gate_box, rho_hypotheses_score_plot for each plot near the
  * track, rho_hypotheses_commit. Between the last two the caller may assign plots to other tracks.
  *
  * Source: D. B. Reid, An algorithm for tracking multiple targets, IEEE Transactions on Automatic
@@ -171,15 +171,14 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, 
  * Sets the motion model, except for calm_s, whose learned value is kept. Errors: NULL, CONFIG;
  * nothing is changed. Cost: one rho_imm_prepare_step. Stack: 300 bytes.
  */
-RHO_MUST_CHECK enum rho_status
-rho_hypotheses_set_model_but_calm_time(struct rho_hypotheses *pool,
-                                       const struct rho_imm_model *model);
+RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
+                                                        const struct rho_imm_model *model);
 
 /*
  * Sets the model's calm_s, > 0, the mean time between manoeuvres of calm targets, if the model has
  * such targets. Cost: one rho_imm_prepare_step where calm_s changes. Stack: 160 bytes.
  */
-void rho_hypotheses_set_mean_manoeuvre_interval(struct rho_hypotheses *pool, float calm_s);
+void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s);
 
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all
@@ -215,19 +214,19 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *poo
  * models: on to the time from which they had been moved back.
  * Errors: as rho_hypotheses_predict. Stack: 490 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_hypotheses_predict_noiseless(struct rho_hypotheses *pool,
-                                                                uint16_t slot, int64_t time_us);
+RHO_MUST_CHECK enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, uint16_t slot,
+                                                   int64_t time_us);
 
 /*
  * Begins a scan: removes the candidates of the scan before, and fills *box (may be NULL). Cost: 70
  * instructions a hypothesis and model. Stack: 240 bytes.
  */
-void rho_hypotheses_clear_candidates_get_gate_box(struct rho_hypotheses *pool, uint16_t slot,
-                                                  struct rho_hypotheses_box *box);
+void rho_hypotheses_gate_box(struct rho_hypotheses *pool, uint16_t slot,
+                             struct rho_hypotheses_box *box);
 
 /*
  * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the
- * slot. rho_hypotheses_clear_candidates_get_gate_box must have filled *box since the slot's last
+ * slot. rho_hypotheses_gate_box must have filled *box since the slot's last
  * prediction; the first plot with an own time completes it. Constant cost otherwise. Stack: 170
  * bytes.
  */
@@ -248,7 +247,7 @@ float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t sl
  * RHO_HYPOTHESES_CHILDREN best plots as candidates, of equals the earlier ones. Returns 1 where the
  * plot is in the gate of any hypothesis; *best_weight_nat is then the weight of the best hypothesis
  * with the plot: ln of pd times the plot's density over the clutter's, plus the hypothesis' weight.
- * Cost: rho_imm_predict_rates_and_score_plot a hypothesis, and rho_imm_predict_unmixed for a plot
+ * Cost: rho_imm_score_plot a hypothesis, and rho_imm_predict_unmixed for a plot
  * with an own time. Stack: 820 bytes.
  */
 int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,

@@ -50,6 +50,8 @@ extern "C" {
 
 /* A plot is in the gate if its NIS under either model is at most this. */
 #define RHO_IMM_GATE 30.0f
+/* its square root: the largest distance of a plot in the gate, in standard deviations */
+#define RHO_IMM_GATE_SIGMAS 5.4772256f
 
 /* Default mean time between manoeuvres of calm targets, such as airliners and ships. */
 #define RHO_IMM_CALM_S 300.0f
@@ -148,19 +150,19 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
 
 /*
  * Mixes the models and predicts both. Errors: VALUE (a result not finite, or beyond
- * RHO_KALMAN_VARIANCE_MAX): then the object must not be used any more.
- * Cost: about 800 instructions, coupled with a height 1 400. Stack: 330 bytes.
+ * RHO_VARIANCE_MAX): then the object must not be used any more.
+ * Cost: about 800 instructions, coupled with a height 1 400. Stack: 336 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_predict(struct rho_imm *imm,
                                                const struct rho_imm_step *step);
 
-/* Predicts both models without mixing them: to a plot's own time, or back. Stack: 330 bytes. */
+/* Predicts both models without mixing them: to a plot's own time, or back. Stack: 336 bytes. */
 RHO_MUST_CHECK enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm,
                                                        const struct rho_imm_step *step);
 
 /*
  * Prepares a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: the origin),
- * for scoring and updates. Plot and sensor are referred to, not copied.
+ * for scoring and updates. Plot and sensor are referred to, not copied. Stack: 128 bytes.
  */
 void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor);
@@ -170,8 +172,8 @@ void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot
  * model, else 0. Height, velocity and range rate are scored if plot and estimate have them.
  * Cost: about 250 instructions, coupled or with own covariance 500. Stack: 710 bytes.
  */
-int rho_imm_predict_rates_and_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
-                                         struct rho_imm_match *match);
+int rho_imm_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                       struct rho_imm_match *match);
 
 /*
  * Range rates that both models predict for a sensor; they hold for all plots at the estimate's
@@ -190,17 +192,17 @@ struct rho_imm_rates {
 
 /*
  * Fills *rates with the range rates that both models predict for a sensor. Cost: 1 400
- * instructions, without a height 400. Stack: 320 bytes.
+ * instructions, without a height 400. Stack: 328 bytes.
  */
 void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                                  const struct rho_sensor *sensor);
 
 /*
- * Scores a plot as rho_imm_predict_rates_and_score_plot does, with range rates that were predicted
+ * Scores a plot as rho_imm_score_plot does, with range rates that were predicted
  * for its sensor; they are not read for a plot without a range rate. Stack: 620 bytes.
  */
-int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_imm_rates *rates,
-                                  const struct rho_imm_plot *seen, struct rho_imm_match *match);
+int rho_imm_score_with_rates(const struct rho_imm *imm, const struct rho_imm_rates *rates,
+                             const struct rho_imm_plot *seen, struct rho_imm_match *match);
 
 /*
  * Gates of both models for plots of a position alone, all with one isotropic noise, while the axes
@@ -217,8 +219,8 @@ struct rho_imm_gate {
  * Fills *gate for plots of position noise variance_m2 on each axis. Returns 0 if the axes are
  * coupled, or a density is not finite. Cost: 250 instructions.
  */
-int rho_imm_prepare_gate_if_uncoupled(struct rho_imm_gate *gate, const struct rho_imm *imm,
-                                      float variance_m2, int has_z);
+int rho_imm_prepare_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
+                         int has_z);
 
 /*
  * Scores a position of the gate's noise: returns 1 and fills ln of its density and the manoeuvring
@@ -226,9 +228,9 @@ int rho_imm_prepare_gate_if_uncoupled(struct rho_imm_gate *gate, const struct rh
  * certainly at most e^log_likelihood_to_exceed (-FLT_MAX: no limit), which saves most of the work.
  * Cost: 45 instructions outside of the gate, 150 inside.
  */
-int rho_imm_score_position_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
-                                   float log_likelihood_to_exceed, float *log_likelihood,
-                                   float *probability);
+int rho_imm_score_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
+                          float log_likelihood_to_exceed, float *log_likelihood,
+                          float *probability);
 
 /*
  * Updates both models with a plot that was scored, and sets the manoeuvring model's probability to

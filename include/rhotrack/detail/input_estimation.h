@@ -22,8 +22,8 @@
  *
  *     rho_input_predict(&input, &config, dt_s);
  *     rho_input_update_position(&input, &config, &measurement);   further measurements follow
- *     rho_input_test_and_end_inputs(&input, &config);                 once per scan with a plot
- *     rho_input_get_corrected_estimate(&input, &kalman);                        at any time
+ *     rho_input_decide(&input, &config);                 once per scan with a plot
+ *     rho_input_estimate(&input, &kalman);                        at any time
  *
  * Source: the input estimation of "a novel tracking algorithm by integrating the Kalman filter,
  * input estimation, and clutter elimination algorithm to track maneuvering targets in cluttered
@@ -62,11 +62,11 @@ struct rho_input_config {
     float noise_density; /* white acceleration, m^2/s^3: >= 0 */
     /* the paper's Q: sd added at each prediction, independent of its interval: 0 .. 1e6 */
     float noise_m, noise_mps;
-    /* velocity variance of an axis that a plot opens: RHO_KALMAN_VARIANCE_MIN .. MAX */
+    /* velocity variance of an axis that a plot opens: RHO_VARIANCE_MIN .. MAX */
     float velocity_variance;
     /*
      * a new track's covariance, the paper's P(0|0), is this times I, m^2 and (m/s)^2: 0 ..
-     * RHO_KALMAN_VARIANCE_MAX; 0: its first plots determine it. Applied by the caller that starts a
+     * RHO_VARIANCE_MAX; 0: its first plots determine it. Applied by the caller that starts a
      * track (rho_kalman_set_equal_variances)
      */
     float initial_variance;
@@ -116,27 +116,27 @@ RHO_MUST_CHECK enum rho_status rho_input_predict(struct rho_input *input,
 
 /*
  * One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update; VALUE where an
- * estimated input would exceed 1e12 m/s^2. Cost: about 460 instructions, 880 coupled. Stack: 550
+ * estimated input would exceed 1e12 m/s^2. Cost: about 460 instructions, 880 coupled. Stack: 552
  * bytes.
  */
-RHO_MUST_CHECK enum rho_status
-rho_input_update_filter_by_element(struct rho_input *input, const struct rho_input_config *config,
-                                   int element, float value, float variance);
+RHO_MUST_CHECK enum rho_status rho_input_update_element(struct rho_input *input,
+                                                        const struct rho_input_config *config,
+                                                        int element, float value, float variance);
 
 /*
  * One scalar update: row . state was measured, `innovation` is its measured value minus that of the
- * bare filter. Errors: as rho_kalman_update_row and rho_input_update_filter_by_element. Cost: about
+ * bare filter. Errors: as rho_kalman_update_row and rho_input_update_element. Cost: about
  * 1500 instructions. Stack: 520 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_input_update_filter_by_row(struct rho_input *input,
-                                                              const struct rho_input_config *config,
-                                                              const float row[6], float innovation,
-                                                              float variance);
+RHO_MUST_CHECK enum rho_status rho_input_update_row(struct rho_input *input,
+                                                    const struct rho_input_config *config,
+                                                    const float row[6], float innovation,
+                                                    float variance);
 
 /*
  * Updates with a position, in the frame of its noise. Opens axes and has errors as
- * rho_kalman_update_position. Cost: rho_input_update_filter_by_element an axis; where the noise is
- * not isotropic, rho_input_update_filter_by_row. Stack: 1050 bytes.
+ * rho_kalman_update_position. Cost: rho_input_update_element an axis; where the noise is
+ * not isotropic, rho_input_update_row. Stack: 1050 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input,
                                                          const struct rho_input_config *config,
@@ -145,7 +145,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input
 /*
  * Updates with a range rate, linearised at the corrected estimate. Errors: as
  * rho_kalman_update_range_rate.
- * Cost: rho_input_get_corrected_estimate and rho_input_update_filter_by_row. Stack: 740 bytes.
+ * Cost: rho_input_estimate and rho_input_update_row. Stack: 740 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_range_rate(struct rho_input *input,
                                                            const struct rho_input_config *config,
@@ -167,23 +167,23 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
  * the effect of an input that has ended into the estimate. To be called once a scan with a plot,
  * after its updates. If the inputs of axes are correlated, the weakest is tested first, and the
  * others conditioned on its absence. Cost: about 110 instructions, 300 where three inputs end, 1500
- * where they are coupled. Stack: 140 bytes.
+ * where they are coupled. Stack: 144 bytes.
  */
-void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_input_config *config);
+void rho_input_decide(struct rho_input *input, const struct rho_input_config *config);
 
 /*
  * Fills *estimate with the corrected estimate, the paper's (14) to (18). Cost: about 260
  * instructions, 2100 coupled.
  * Stack: 160 bytes.
  */
-void rho_input_get_corrected_estimate(const struct rho_input *input, struct rho_kalman *estimate);
+void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate);
 
 /*
  * Fills *estimate with the corrected estimate for a gate: an axis without input may have got one
  * since the last plot, so that an input of 0 with variance V(0) is included. Cost as
- * rho_input_get_corrected_estimate, stack as above.
+ * rho_input_estimate, stack as above.
  */
-void rho_input_estimate_with_all_inputs(const struct rho_input *input, struct rho_kalman *estimate);
+void rho_input_gate_estimate(const struct rho_input *input, struct rho_kalman *estimate);
 
 #ifdef __cplusplus
 }

@@ -14,6 +14,7 @@
 #ifndef RHOTRACK_KALMAN_H
 #define RHOTRACK_KALMAN_H
 
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
@@ -22,7 +23,8 @@
 extern "C" {
 #endif
 
-#define RHO_KALMAN_STATES 6
+#define RHO_AXES 3
+#define RHO_KALMAN_STATES (2 * RHO_AXES)
 
 /* Indices of the state's elements, and of the positions' covariances in the packed triangle. */
 #define RHO_X 0
@@ -38,15 +40,31 @@ extern "C" {
 #define RHO_ZY RHO_AT(RHO_Z, RHO_Y)
 #define RHO_ZZ RHO_AT(RHO_Z, RHO_Z)
 
-/* Least variance of an element of an open axis; updates keep it there. */
-#define RHO_KALMAN_VARIANCE_MIN 1.0e-9f
-/* Largest variance; larger results are refused, RHO_ERROR_VALUE. */
-#define RHO_KALMAN_VARIANCE_MAX 1.0e12f
+/* largest interval of a prediction, either way */
+#define RHO_KALMAN_STEP_MAX_S 1.0e5f
 
 struct rho_kalman {
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
 };
+
+/* A variance raised to the floor: with less an open axis would look closed. No stack. */
+static inline float rho_kalman_floored(float variance)
+{
+    return variance > RHO_VARIANCE_MIN ? variance : RHO_VARIANCE_MIN;
+}
+
+/* Raises the variances of n states to the floor; 0 marks a closed axis and stays. No stack. */
+static inline void rho_kalman_floor_variances(float *covariance, int n)
+{
+    RHO_UNROLL
+    for (int i = 0; i < n; i++) {
+        float *variance = &covariance[RHO_AT(i, i)];
+        if (*variance < RHO_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
+            *variance = RHO_VARIANCE_MIN;
+        }
+    }
+}
 
 /* Sets all axes closed: state and covariance are 0. Constant cost. */
 void rho_kalman_init(struct rho_kalman *kalman);
@@ -54,7 +72,7 @@ void rho_kalman_init(struct rho_kalman *kalman);
 /*
  * Opens axis 0 (x), 1 (y) or 2 (z) with a first position and its variance, velocity 0 with its
  * variance; covariances with the other axes become 0. Errors: NULL, VALUE (axis, not finite,
- * variance outside RHO_KALMAN_VARIANCE_MIN .. MAX). Constant cost.
+ * variance outside RHO_VARIANCE_MIN .. MAX). Constant cost.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis,
                                                     float position_m, float position_variance,
@@ -62,7 +80,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
 
 /*
  * Sets the covariance to variance times I, m^2 and (m/s)^2, on the axes that are open; variance is
- * RHO_KALMAN_VARIANCE_MIN .. MAX. Constant cost.
+ * RHO_VARIANCE_MIN .. MAX. Constant cost.
  */
 void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
 
@@ -71,7 +89,7 @@ void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
  * acceleration on each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2
  * dt], so that one long step equals several short ones. Going back (dt_s < 0) adds no noise: forth
  * and back without noise is the identity but for rounding.
- * Errors: NULL, VALUE (arguments, or a result beyond RHO_KALMAN_VARIANCE_MAX; unchanged).
+ * Errors: NULL, VALUE (arguments, or a result beyond RHO_VARIANCE_MAX; unchanged).
  * Cost: about 240 instructions. Stack: 72 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s,
@@ -80,14 +98,14 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
 /*
  * Adds process noise to each open axis: for papers that state Q per step, independent of the
  * interval. Errors: NULL, VALUE (a variance negative or not finite, a result beyond
- * RHO_KALMAN_VARIANCE_MAX); unchanged. Cost: about 60 instructions. Stack: 16 bytes.
+ * RHO_VARIANCE_MAX); unchanged. Cost: about 60 instructions. Stack: 16 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float velocity_variance);
 
 /*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0
- * (raised to RHO_KALMAN_VARIANCE_MIN). *nis (may be NULL) gets the normalised innovation squared.
+ * (raised to RHO_VARIANCE_MIN). *nis (may be NULL) gets the normalised innovation squared.
  * An element of an axis that is not open is left unchanged. Errors: NULL, VALUE (element, value or
  * variance, a result not finite), SINGULAR (innovation variance not positive and finite);
  * unchanged. Cost: about 300 instructions. Stack: 144 bytes.
@@ -102,19 +120,6 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int 
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
                                                      float innovation, float variance, float *nis);
-
-/*
- * Updates with 1 .. 6 elements of the state that were measured with correlated noise: elements[i]
- * as values[i], the noise's covariance a packed triangle. The covariance is made diagonal once, R =
- * L D L^T without a square root, and each row of L^-1 H is a scalar update. Elements of an axis
- * that is not open are left out. Errors: NULL, VALUE (num, an element, a value or covariance not
- * finite, a result), SINGULAR (R not positive definite, an innovation variance); unchanged.
- * Cost: about 2700 instructions for 3 elements, 6250 for 6. Stack: 570 bytes.
- */
-RHO_MUST_CHECK enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,
-                                                            const int elements[],
-                                                            const float values[],
-                                                            const float covariance[]);
 
 /*
  * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened
@@ -138,26 +143,24 @@ struct rho_kalman_row {
 /*
  * Linearises a range rate with noise `variance` at an estimate, into *seen. Returns 0, and fills
  * nothing, if the estimate is nearer than a metre to the sensor. Cost:
- * rho_measurement_predict_range_rate, and a division. Stack: 170 bytes.
+ * rho_measurement_predict_rate, and a division. Stack: 170 bytes.
  */
-int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
-                                    const struct rho_sensor *sensor, float rate_mps, float variance,
-                                    struct rho_kalman_row *seen);
+int rho_kalman_linearise_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                              float rate_mps, float variance, struct rho_kalman_row *seen);
 
 /*
  * True unless the range rate is ambiguous and the estimate is too uncertain to unfold it
  * (measurement.h). Cost: rho_linalg_project6 for an ambiguous range rate.
  */
-int rho_kalman_can_unfold_range_rate(const struct rho_kalman *kalman,
-                                     const struct rho_sensor *sensor,
-                                     const struct rho_kalman_row *seen);
+int rho_kalman_can_unfold(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                          const struct rho_kalman_row *seen);
 
 /*
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate; to
  * be called after the update with the same plot's position. For an estimate nearer than a metre to
  * the sensor, and for an ambiguous range rate that cannot be unfolded, nothing is done: RHO_OK.
  * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and
- * rho_measurement_predict_range_rate. Stack: 250 bytes.
+ * rho_measurement_predict_rate. Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                                             const struct rho_sensor *sensor,
@@ -195,7 +198,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
                                                          float sigma_rad);
 
 /* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
-int rho_kalman_has_estimate_on_axis(const struct rho_kalman *kalman, int axis);
+int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis);
 
 #ifdef __cplusplus
 }

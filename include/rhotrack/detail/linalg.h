@@ -12,6 +12,8 @@
 #ifndef RHOTRACK_LINALG_H
 #define RHOTRACK_LINALG_H
 
+#include <stdint.h>
+
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
@@ -22,6 +24,24 @@ extern "C" {
 #define RHO_LINALG_MAX 12
 #define RHO_TRIANGLE(n) ((n) * ((n) + 1) / 2)
 #define RHO_AT(i, j) ((i) >= (j) ? (i) * ((i) + 1) / 2 + (j) : (j) * ((j) + 1) / 2 + (i))
+
+/* n units of float32's rounding, 2^-24 each, as a share of a number. */
+#define RHO_ROUNDING_UNITS(n) ((float)(n) / 16777216.0f)
+
+/*
+ * Factor by which a variance is raised before an update reduces it. The products that are
+ * subtracted carry at most four units of rounding each, so a positive definite matrix stays so even
+ * where the measurement is 10^8 times better than the prediction and every digit cancels.
+ */
+#define RHO_ROUNDING_ALLOWANCE (1.0f + RHO_ROUNDING_UNITS(16))
+
+/* least variance of an element of an open axis; updates keep it there */
+#define RHO_VARIANCE_MIN 1.0e-9f
+/* largest variance; larger results are refused, RHO_ERROR_VALUE */
+#define RHO_VARIANCE_MAX 1.0e12f
+
+/* Indices of the elements of row i of a packed symmetric 6 x 6 matrix. */
+extern const uint8_t rho_linalg_row6[6][6];
 
 /* Unrolls the loop that follows, also where the compiler optimises for size. */
 #if RHO_FAST_UPDATES && defined(__GNUC__)

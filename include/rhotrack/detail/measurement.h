@@ -32,6 +32,9 @@ extern "C" {
 #define RHO_GATE_CHI2_3D 16.2662f
 #define RHO_GATE_CHI2_4D 18.4668f
 
+/* Least range at which a line of sight is defined. */
+#define RHO_RANGE_LEAST_M 1.0f
+
 /*
  * Interval of heights over which clutter and new targets are assumed to be spread, where heights
  * are measured.
@@ -59,7 +62,7 @@ int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor);
 int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures);
 
 /* True where a bearing is within +-pi and its sigma within the limits of types.h. Constant cost. */
-int rho_measurement_is_valid_bearing(const struct rho_bearing *bearing);
+int rho_bearing_is_valid(const struct rho_bearing *bearing);
 
 /* Factors of the sigmas of a sensor's plots, along the line of sight and across it. */
 struct rho_sigma_factors {
@@ -73,14 +76,14 @@ struct rho_sigma_factors {
 struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor);
 
 /* The larger one of a sensor's two sigma factors, at least 1. Constant cost. */
-float rho_measurement_sigma_factor_at_least_one(const struct rho_sensor *sensor);
+float rho_measurement_factor_max(const struct rho_sensor *sensor);
 
 /*
  * Fills *out from a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from
  * the origin). A plot at the sensor's position has no line of sight: its noise is taken as
  * isotropic, with the largest of its sigmas. The sensor's factors scale the sigmas; heights take
  * the factor nearer to 1 where both lie on one side of 1. Cost: two square roots, two divisions.
- * Stack: 80 bytes.
+ * Stack: 88 bytes.
  */
 void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
                                const struct rho_sensor *sensor, struct rho_measurement *out);
@@ -89,13 +92,22 @@ void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
  * True where a sensor's place, biases and span of range rates are finite and within the limits of
  * types.h. Constant cost.
  */
-int rho_measurement_has_valid_place_and_biases(const struct rho_sensor *sensor);
+int rho_measurement_is_valid_site(const struct rho_sensor *sensor);
 
 /*
  * Covariance of a plot's noise in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant
  * cost.
  */
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6]);
+
+/* Noise variance of the range along the ground. Constant cost. No stack. */
+static inline float rho_measurement_ground_m2(const struct rho_measurement *measurement)
+{
+    const float ce = measurement->cos_elevation, se = measurement->sin_elevation;
+    return measurement->has_z
+               ? ce * ce * measurement->variance_m2[0] + se * se * measurement->variance_m2[2]
+               : measurement->variance_m2[0];
+}
 
 /*
  * The range rate that a sensor (NULL: at the origin) would see of a state [x y z vx vy vz], and its
@@ -104,8 +116,8 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
  * Returns 0, and fills nothing, where the state is nearer than a metre to the sensor. Cost: a
  * square root and two divisions. Stack: 56 bytes.
  */
-int rho_measurement_predict_range_rate(const float state[6], const struct rho_sensor *sensor,
-                                       int use_z, float row[6], float *rate_mps);
+int rho_measurement_predict_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
+                                 float row[6], float *rate_mps);
 
 /*
  * Ambiguous range rates: a radar of pulse repetition frequency f and wavelength w measures range
@@ -118,14 +130,14 @@ int rho_measurement_predict_range_rate(const float state[6], const struct rho_se
  * Measured minus expected range rate, brought within +-span/2 by multiples of the span if the
  * sensor's range rates are ambiguous. Cost: a division.
  */
-float rho_measurement_range_rate_innovation_mps(const struct rho_sensor *sensor, float measured_mps,
-                                                float expected_mps);
+float rho_measurement_innovation_mps(const struct rho_sensor *sensor, float measured_mps,
+                                     float expected_mps);
 
 /*
  * True where the difference of measured and expected range rate has a variance, (m/s)^2, small
  * enough to determine the multiple of the span. Constant cost.
  */
-int rho_measurement_can_unfold_range_rate(const struct rho_sensor *sensor, float variance);
+int rho_measurement_can_unfold(const struct rho_sensor *sensor, float variance);
 
 /*
  * Unfolds an ambiguous range rate, the last one of num (2 .. 7) correlated innovations: the
@@ -134,17 +146,17 @@ int rho_measurement_can_unfold_range_rate(const struct rho_sensor *sensor, float
  * multiple is not determined, or the covariance is not positive definite. Cost: a Cholesky factor
  * of num x num. Stack: 280 bytes.
  */
-int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
-                                      const float *covariance, float *innovation);
+int rho_measurement_unfold_rate(const struct rho_sensor *sensor, int num, const float *covariance,
+                                float *innovation);
 
 /*
  * ln of the number of range rates within -v_max .. v_max that an ambiguous one can stand for; 0 for
  * a sensor whose range rates are not ambiguous. Cost: a logarithm.
  */
-float rho_measurement_log_num_aliases(const struct rho_sensor *sensor, float v_max_mps);
+float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps);
 
 /* True where a sensor's range rates are ambiguous. */
-static inline int rho_measurement_has_ambiguous_range_rates(const struct rho_sensor *sensor)
+static inline int rho_measurement_is_ambiguous(const struct rho_sensor *sensor)
 {
     return RHO_AMBIGUOUS_RANGE_RATES && sensor && sensor->range_rate_span_mps > 0.0f;
 }
@@ -156,9 +168,8 @@ static inline int rho_measurement_has_ambiguous_range_rates(const struct rho_sen
  * a metre to the place, or not finite. Cost: an arctangent, a square root and a division.
  * Stack: 48 bytes.
  */
-int rho_measurement_bearing_innovation(const float state[6], float x_m, float y_m,
-                                       float bearing_rad, float row[6], float *off_m,
-                                       float *range_m);
+int rho_measurement_bearing_row(const float state[6], float x_m, float y_m, float bearing_rad,
+                                float row[6], float *off_m, float *range_m);
 
 /*
  * True where a scan covers a place: it is within the scan's sector, and the sensor's sector and

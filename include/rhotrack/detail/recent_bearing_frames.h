@@ -72,7 +72,7 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  * Adds a frame to the batch; a full batch drops its oldest frame.
  *   frame  its time is taken for all its bearings; their offsets are ignored
  *   fates  one for each bearing, in the order of the frame's scans; bearings with HELD are stored,
- *          or get INVALID (rho_measurement_is_valid_bearing) or NO_ROOM (beyond RHO_MAX_BEARINGS)
+ *          or get INVALID (rho_bearing_is_valid) or NO_ROOM (beyond RHO_MAX_BEARINGS)
  * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than
  * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor that has moved, is nearer
  * than RHO_CROSSING_BASE_MIN_M to another or farther than apart_max_m from it, or whose position is

@@ -24,13 +24,12 @@ struct echo_view {
 void rho_clutter_map_init(struct rho_clutter_map *map, float v_min_mps);
 
 /* Line of sight from a sensor, NULL for the origin, to a place. */
-struct echo_view rho_clutter_map_view_from_sensor(const struct rho_sensor *sensor, float x_m,
-                                                  float y_m);
+struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m, float y_m);
 /* Azimuth of a line of sight, as a share of the circle: 0 .. 1 from -pi to pi. */
-float rho_clutter_map_azimuth_in_turns(const struct echo_view *view);
+float rho_clutter_map_azimuth_turns(const struct echo_view *view);
 /* Index of the region of azimuth and range in which a place lies. */
-uint8_t rho_clutter_map_region_of_place(const struct rho_sensor *sensor, float range_max_m,
-                                        float x_m, float y_m);
+uint8_t rho_clutter_map_region_at(const struct rho_sensor *sensor, float range_max_m, float x_m,
+                                  float y_m);
 
 /* Counts, in the newest block, that a scan covered an echo. */
 void rho_clutter_map_count_look(struct rho_clutter_map *map, const struct rho_echo *echo);

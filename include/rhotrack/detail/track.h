@@ -229,9 +229,10 @@ RHO_MUST_CHECK enum rho_status rho_track_update_by_plot(struct rho_track *track,
  * `plot` is -1 where the best hypothesis has no plot, or its plot is refused.
  * Errors: NULL, STATE (another filter). Stack: 880 bytes.
  */
-RHO_MUST_CHECK enum rho_status
-rho_track_commit_hypotheses_to_scan(struct rho_track *track, const struct rho_hypotheses_scan *scan,
-                                    int32_t sensor_id, const struct rho_track_model *model);
+RHO_MUST_CHECK enum rho_status rho_track_commit_scan(struct rho_track *track,
+                                                     const struct rho_hypotheses_scan *scan,
+                                                     int32_t sensor_id,
+                                                     const struct rho_track_model *model);
 
 /*
  * At the end of a step: merges the hypotheses into `kalman`, acceleration and manoeuvre

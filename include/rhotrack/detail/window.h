@@ -127,7 +127,7 @@ struct rho_window_query {
 };
 
 /* Covariance of a place in the plane, and the variance of its height. */
-struct rho_window_plot_noise_covariance {
+struct rho_window_plot_noise {
     float xx_m2, xy_m2, yy_m2, zz_m2;
 };
 
@@ -139,9 +139,8 @@ struct rho_window_place {
     float x_m, y_m, z_m;
     float vx_mps, vy_mps, vz_mps;
     float ax_mps2, ay_mps2; /* acceleration over the plot's offset; gate_radius_m allows for it */
-    struct rho_window_plot_noise_covariance noise; /* covariance of the place */
-    struct rho_window_plot_noise_covariance
-        velocity_noise; /* covariance of the velocity, (m/s)^2 */
+    struct rho_window_plot_noise noise;          /* covariance of the place */
+    struct rho_window_plot_noise velocity_noise; /* covariance of the velocity, (m/s)^2 */
     /* correction of the velocity by an alias of a range rate; applied to range rates alone */
     float more_mps[3];
     float factor; /* factor of the plots' variances */
@@ -181,9 +180,8 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
  * within RHO_LIMIT_OFFSET_US of their time. The scan then measures what all its sectors with plots
  * measure. Constant cost.
  */
-int rho_window_is_next_sector_of_newest_scan(const struct rho_window *window,
-                                             const struct rho_scan *scan,
-                                             const struct rho_sensor *sensor);
+int rho_window_continues_newest(const struct rho_window *window, const struct rho_scan *scan,
+                                const struct rho_sensor *sensor);
 
 /* The status that rho_window_push would return; nothing is changed. Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *window,
@@ -218,9 +216,9 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
  * Index of the plot nearest to the query's place, or -1 where none is in the gate. Ties go to the
  * lower index. Cost: bins under the gate's square, and their plots. Stack: 112 bytes.
  */
-int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *scan,
-                                                const struct rho_window_query *query,
-                                                struct rho_window_work *work);
+int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
+                                 const struct rho_window_query *query,
+                                 struct rho_window_work *work);
 
 /*
  * Index of the plot with the least NIS about a place with its own covariance: position plus height
@@ -228,17 +226,15 @@ int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *sc
  * gate. Correlations of height and range rate with the position are neglected. Cost: bins under the
  * gate's square, 60 instructions a plot in them. Stack: 272 bytes.
  */
-int rho_window_nearest_plot_anisotropic(const struct rho_window_scan *scan,
-                                        const struct rho_window_place *place,
-                                        struct rho_window_work *work);
+int rho_window_nearest_plot(const struct rho_window_scan *scan,
+                            const struct rho_window_place *place, struct rho_window_work *work);
 
 /*
  * Covariance of a held plot's place, by its sigmas and its line of sight. Cost: a division, with z
  * two more.
  */
-struct rho_window_plot_noise_covariance
-rho_window_plot_noise_covariance(const struct rho_window_scan *scan,
-                                 const struct rho_window_plot *plot);
+struct rho_window_plot_noise rho_window_plot_noise(const struct rho_window_scan *scan,
+                                                   const struct rho_window_plot *plot);
 
 /* Innovation of a held plot's range rate, against the velocity of a place. */
 struct rho_window_range_rate {

@@ -20,8 +20,6 @@
 #define COUNT(list) (sizeof(list) / sizeof(*(list)))
 #define RECORD_MAX 4096
 
-/* ---- Bytes ---- */
-
 static size_t bytes_of_hex(const char *hex, uint8_t *bytes)
 {
     size_t size = strlen(hex) / 2;
@@ -73,8 +71,6 @@ static struct asterix_record check_record(uint8_t category, const char *hex,
     }
     return record;
 }
-
-/* ---- records that libasterix decodes --------------------------------------------------------- */
 
 static void test_cat048_plots(void **state)
 {
@@ -253,8 +249,6 @@ static void test_cat062_tracks_are_read(void **state)
     }
 }
 
-/* ---- tracks that we encode as libasterix does ------------------------------------------------ */
-
 static struct asterix_track track_of_values(const double *v)
 {
     const double foot_m = 0.3048;
@@ -329,8 +323,6 @@ static void test_values_beyond_an_item_become_its_largest(void **state)
     assert_true(track.vx_mps == 8191.75 && track.vy_mps == -8192.0);
     assert_true(track.sigma_x_m == 32767.5 && track.sigma_vx_mps == 63.75);
 }
-
-/* ---- invalid records, blocks and sensor numbers ---------------------------------------------- */
 
 static void check_bad_record(uint8_t category, const char *hex, size_t at, const char *reason)
 {

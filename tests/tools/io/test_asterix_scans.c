@@ -18,8 +18,6 @@
 #define HZ ASTERIX_TIME_HZ
 #define TURN_S 4 /* turn of the simulated radar, in seconds */
 
-/* ---- the simulated radar --------------------------------------------------------------------- */
-
 static struct asterix_scans *open_asterix_scans(bool is_by_turn, double interval_s, double wait_s)
 {
     const struct asterix_rules rules = {
@@ -101,8 +99,6 @@ static void expect_no_scan(struct asterix_scans *scans)
 
     assert_false(asterix_scans_next(scans, &scan));
 }
-
-/* ---- Sectors ---- */
 
 /*
  * Eight sectors a turn; plots come after the next sector's crossing message, some before that of
@@ -277,8 +273,6 @@ static void test_late_plots_are_counted(void **state)
     asterix_scans_close(scans);
 }
 
-/* ---- time of day ----------------------------------------------------------------------------- */
-
 static void test_time_of_day_passes_midnight(void **state)
 {
     struct asterix_scans *scans = open_asterix_scans(true, 0, 30);
@@ -336,7 +330,7 @@ static void test_day_of_the_first_plot_follows_the_reference_time(void **state)
     struct asterix_scan scan;
 
     (void)state;
-    asterix_scans_set_reference_time(scans, INT64_C(3) * ASTERIX_DAY - 50);
+    asterix_scans_set_day(scans, INT64_C(3) * ASTERIX_DAY - 50);
     take_plot_at_antenna(scans, 100);
     asterix_scans_finish(scans);
     assert_true(asterix_scans_next(scans, &scan));
@@ -345,8 +339,6 @@ static void test_day_of_the_first_plot_follows_the_reference_time(void **state)
     assert_int_equal(asterix_time_us(1), 7813);
     assert_int_equal(asterix_time_us(-128), -1000000);
 }
-
-/* ---- several radars, and radars without crossings -------------------------------------------- */
 
 /*
  * A radar without crossings is known as such after wait_s; then plots within interval_s are a scan.
@@ -392,8 +384,6 @@ static void test_a_silent_radar_is_not_waited_for(void **state)
     assert_true(asterix_scans_settled_time_128(scans) > 512 * 36);
     asterix_scans_close(scans);
 }
-
-/* ---- measurements of plots ------------------------------------------------------------------- */
 
 /* Takes a plot with items 010, 140, 020, 040, 090 (flight level) and 120 (calculated Doppler). */
 static void take_plot_with_height_and_doppler(struct asterix_scans *scans, uint32_t time_128,

@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "base/random.h"
-#include "io/log/files_to_message_stream.h"
 #include "io/log/lcm_log.h"
+#include "io/log/message_source.h"
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
 #include "rhotrack/message.h"
@@ -34,8 +34,6 @@ struct sent {
 static struct sent sent[MAX_MESSAGES];
 static size_t num_sent;
 static struct random dice;
-
-/* ---- random contents of messages ------------------------------------------------------------- */
 
 static uint64_t random_number_below(uint64_t n)
 {
@@ -291,8 +289,6 @@ static void add_sent_track_list(int sensor_id, int32_t scan, int64_t utime)
     }
 }
 
-/* ---- messages to a CSV file and back --------------------------------------------------------- */
-
 /* Writes the messages as a CSV file, in an order that a network may deliver them in. */
 static void write_sent_messages_as_csv(const char *path, const struct rows_kind *kind,
                                        bool is_shuffled)
@@ -316,7 +312,7 @@ static void write_sent_messages_as_csv(const char *path, const struct rows_kind 
         assert_null(rows_from_messages_add(&collection, message->channel, message->data,
                                            message->size, reason));
     }
-    rows_from_messages_sort_and_drop_repeats(&collection);
+    rows_from_messages_sort(&collection);
     assert_int_equal(collection.messages_again, 0);
     assert_int_equal(collection.scans_incomplete, 0);
     rows_write_csv(file, &collection.rows, true);
@@ -331,7 +327,7 @@ static void assert_csv_gives_sent_messages(char *path)
     struct parameters parameters;
 
     parameters_set_defaults(&parameters);
-    source = message_source_open_logs_or_csv(&path, 1, &parameters, false);
+    source = message_source_open(&path, 1, &parameters, false);
     for (size_t i = 0; i < num_sent; i++) {
         assert_true(message_source_next(source, &event));
         assert_true(event.utime == sent[i].utime);
@@ -402,8 +398,6 @@ static void parts_in_any_order_are_written_in_the_right_order(void **state)
     check_round_trip(ROWS_TRACKS, add_sent_track_list, true);
 }
 
-/* ---- rows that form a scan ------------------------------------------------------------------- */
-
 static void write_text(char *path, const char *text)
 {
     int file;
@@ -444,7 +438,7 @@ static const char *describe_all_messages(char *const *paths, int num_paths, doub
 
     parameters_set_defaults(&parameters);
     parameters.value[PARAMETER_SCAN_INTERVAL_S] = interval_s;
-    source = message_source_open_logs_or_csv(paths, num_paths, &parameters, keep_going);
+    source = message_source_open(paths, num_paths, &parameters, keep_going);
     text[0] = '\0';
     while (message_source_next(source, &event)) {
         strcat(text, describe_message(&event, one));
@@ -520,7 +514,7 @@ static void a_track_id_repeated_at_one_time_begins_a_new_list(void **state)
     parameters_set_defaults(&parameters);
     write_text(path, "t_s,track_id,status,x_m,y_m\n1,1,confirmed,0,0\n1,2,tentative,0,0\n"
                      "1,1,confirmed,0,0\n1,2,coasting,0,0\n1,3,tentative,0,0\n2,1,deleted,0,0\n");
-    source = message_source_open_logs_or_csv(&name, 1, &parameters, false);
+    source = message_source_open(&name, 1, &parameters, false);
     for (int i = 0; i < 3; i++) {
         struct rho_message_track_list tracks;
 
@@ -535,8 +529,6 @@ static void a_track_id_repeated_at_one_time_begins_a_new_list(void **state)
     message_source_close(source);
     unlink(path);
 }
-
-/* ---- several files, bad rows, parts ---------------------------------------------------------- */
 
 static void files_are_merged_by_time(void **state)
 {
@@ -589,7 +581,7 @@ static void messages_of_parts_keep_the_order_of_rows(void **state)
     }
     write_text(path, text);
     parameters_set_defaults(&parameters);
-    source = message_source_open_logs_or_csv(&name, 1, &parameters, false);
+    source = message_source_open(&name, 1, &parameters, false);
     for (int part = 0; message_source_next(source, &event); part++) {
         assert_int_equal(rho_message_polar_scan_decode(event.data, event.size, &scan), RHO_OK);
         assert_int_equal(scan.part, part);
@@ -603,8 +595,6 @@ static void messages_of_parts_keep_the_order_of_rows(void **state)
     message_source_close(source);
     unlink(path);
 }
-
-/* ---- messages that are counted or refused ---------------------------------------------------- */
 
 static void rows_from_messages_counts_doubles_and_refuses_bad_messages(void **state)
 {
@@ -641,7 +631,7 @@ static void rows_from_messages_counts_doubles_and_refuses_bad_messages(void **st
     assert_string_equal(
         rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
         "kind is outside the range of a plot_scan_t");
-    rows_from_messages_sort_and_drop_repeats(&collection);
+    rows_from_messages_sort(&collection);
     assert_int_equal(collection.messages_again, 1);
     assert_int_equal(collection.scans_incomplete, 1);
     assert_int_equal(collection.rows.count, RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS);

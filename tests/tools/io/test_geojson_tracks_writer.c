@@ -57,7 +57,7 @@ static cJSON *close_and_parse_map(struct map *map)
 {
     cJSON *root;
 
-    geojson_write_open_tracks_and_free(map->geojson);
+    geojson_end_and_free(map->geojson);
     assert_int_equal(fclose(map->file), 0);
     root = cJSON_Parse(map->text);
     free(map->text);
@@ -174,7 +174,7 @@ static void a_track_is_written_once_it_has_ended(void **state)
             fflush(map.file);
             before = map.bytes;
         }
-        geojson_end_time_and_write_ended_tracks(map.geojson);
+        geojson_end_time(map.geojson);
     }
     fflush(map.file);
     assert_int_equal(before, 0);

@@ -59,8 +59,6 @@ static void append_event(struct bytes *bytes, int64_t number, const char *channe
                               (uint32_t)strlen(data));
 }
 
-/* ---- events found, as text: "number:channel:data ", and "-n " for n skipped bytes ------------ */
-
 static void append_skip_text(char *text, size_t skipped)
 {
     if (skipped > 0) {
@@ -111,8 +109,6 @@ static int clear_the_log(void **state)
     return 0;
 }
 
-/* ---- files ---- */
-
 static void write_the_log(char *path)
 {
     int file;
@@ -123,8 +119,6 @@ static void write_the_log(char *path)
     assert_int_equal(write(file, the_log.data, the_log.size), (long)the_log.size);
     close(file);
 }
-
-/* ---- the format of an event ------------------------------------------------------------------ */
 
 static const uint8_t reference[] = {
     0xED, 0xA1, 0xDA, 0x01,                         /* sync word */
@@ -216,8 +210,6 @@ static void negative_numbers_and_times_are_read_back(void **state)
         free(text);
     }
 }
-
-/* ---- damaged logs ---------------------------------------------------------------------------- */
 
 static void all_events_of_an_intact_log_are_found(void **state)
 {
@@ -424,8 +416,6 @@ static void sync_words_inside_garbage_begin_no_event(void **state)
     assert_events_found("-12 0:A:one -40 1:A:two -2 2:A:three -4 ");
 }
 
-/* ---- a stream whose next bytes are still missing --------------------------------------------- */
-
 static void the_parser_asks_for_more_bytes_until_an_event_is_certain(void **state)
 {
     struct lcm_log_event event;
@@ -444,8 +434,6 @@ static void the_parser_asks_for_more_bytes_until_an_event_is_certain(void **stat
     assert_int_equal(lcm_log_parse(the_log.data, whole + 4, false, &event, &count), LCM_LOG_EVENT);
     assert_int_equal(count, whole);
 }
-
-/* ---- files ----------------------------------------------------------------------------------- */
 
 static void the_reader_gives_events_and_counts_skipped_bytes(void **state)
 {
@@ -559,8 +547,6 @@ static void false_lengths_do_not_make_the_parser_slow(void **state)
     lcm_log_close(reader);
     unlink(path);
 }
-
-/* ---- random pieces --------------------------------------------------------------------------- */
 
 /*
  * Pieces of logs in random order: every byte is accounted for, and the file reader finds what the

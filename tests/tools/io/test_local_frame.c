@@ -18,8 +18,6 @@
 #define DEG_RAD (3.14159265358979323846264338328L / 180)
 #define PI 3.14159265358979323846
 
-/* ---- comparison without PROJ: ECEF and a rotation, from the textbook ------------------------- */
-
 static void ecef_of_geodetic(const double geodetic[3], long double ecef_m[3])
 {
     const long double a = 6378137.0L, f = 1 / 298.257223563L, e2 = f * (2 - f);
@@ -75,8 +73,6 @@ static struct local_frame *open_frame_at(const double origin[3])
 {
     return local_frame_open(origin[0], origin[1], origin[2]);
 }
-
-/* ---- one local frame ------------------------------------------------------------------------- */
 
 /* Example of IOGP Guidance Note 7-2, EPSG method 9837, printed to a millimetre. */
 static void the_example_of_epsg_9837_is_reproduced(void **state)
@@ -170,8 +166,6 @@ static void at_height_finds_the_geodetic_place(void **state)
     local_frame_close(frame);
 }
 
-/* ---- from one local frame to another --------------------------------------------------------- */
-
 /*
  * For small differences in longitude the convergence is sin(latitude) times the difference: seen
  * from a western sensor, true north at an eastern one is turned.
@@ -182,10 +176,10 @@ static void frames_differ_by_the_meridian_convergence(void **state)
     struct local_frame *east = local_frame_open(50, 12, 0), *south = local_frame_open(48, 10, 300);
 
     (void)state;
-    assert_close(local_frame_meridian_convergence_rad(common, common), 0, 1e-12);
-    assert_close(local_frame_meridian_convergence_rad(south, common), 0, 1e-12);
-    assert_close(local_frame_meridian_convergence_rad(east, common),
-                 sin(50 * PI / 180) * 2 * PI / 180, 1e-4);
+    assert_close(local_frame_convergence_rad(common, common), 0, 1e-12);
+    assert_close(local_frame_convergence_rad(south, common), 0, 1e-12);
+    assert_close(local_frame_convergence_rad(east, common), sin(50 * PI / 180) * 2 * PI / 180,
+                 1e-4);
     local_frame_close(common);
     local_frame_close(east);
     local_frame_close(south);
@@ -211,8 +205,6 @@ static void conversion_between_frames_keeps_distances(void **state)
     local_frame_close(other);
 }
 
-/* ---- slant range and height of a radar ------------------------------------------------------- */
-
 /* A known place as a radar sees it: range and azimuth by the textbook formulas. */
 static void check_place_from_range_and_height(const double radar[3], const double target[3])
 {
@@ -223,7 +215,7 @@ static void check_place_from_range_and_height(const double radar[3], const doubl
     const struct local_frame_plot plot = {.range_m = length_m(seen_m),
                                           .azimuth_rad = atan2(seen_m[1], seen_m[0]),
                                           .alt_m = target[2]};
-    assert_true(local_frame_from_range_and_height(frame, &plot, found_m));
+    assert_true(local_frame_from_slant_range(frame, &plot, found_m));
     /*
      * near the zenith the range hardly depends on the place: tolerance of 0.1 mm of height,
      * converted to ground distance
@@ -260,16 +252,16 @@ static void a_height_that_the_range_cannot_reach_is_refused(void **state)
     double place_m[3] = {1, 2, 3};
 
     (void)state;
-    assert_false(local_frame_from_range_and_height(
-        radar, &(struct local_frame_plot){5000, 0.3, 5400.01}, place_m));
-    assert_false(local_frame_from_range_and_height(
+    assert_false(local_frame_from_slant_range(radar, &(struct local_frame_plot){5000, 0.3, 5400.01},
+                                              place_m));
+    assert_false(local_frame_from_slant_range(
         radar, &(struct local_frame_plot){5000, 0.3, -4600.01}, place_m));
     assert_near(place_m, (double[3]){1, 2, 3}, 0);
-    assert_true(local_frame_from_range_and_height(
-        radar, &(struct local_frame_plot){5000, 0.3, 5400}, place_m));
+    assert_true(
+        local_frame_from_slant_range(radar, &(struct local_frame_plot){5000, 0.3, 5400}, place_m));
     assert_near(place_m, (double[3]){0, 0, 5000}, 1.5);
-    assert_true(local_frame_from_range_and_height(
-        radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
+    assert_true(
+        local_frame_from_slant_range(radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
     assert_close(length_m(place_m), 5000, 1e-6);
     assert_close(atan2(place_m[1], place_m[0]), 0.3, 1e-9);
     local_frame_close(radar);

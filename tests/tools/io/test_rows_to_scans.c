@@ -41,9 +41,9 @@ static void take_row(struct rows_to_scans *gather, const struct test_row *row, i
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.reason = reason};
     struct gathered_scan *scan =
-        rows_to_scans_find_scan_row_joins(gather, row->sensor_id, &row->number, row->time_us);
+        rows_to_scans_find_scan(gather, row->sensor_id, &row->number, row->time_us);
 
-    assert_true(rows_to_scans_check_time_not_back(gather, scan, row->time_us, &check));
+    assert_true(rows_to_scans_check_time(gather, scan, row->time_us, &check));
     if (!scan) {
         const struct gathered_scan begun = {.sensor_id = row->sensor_id, .number = row->number};
 
@@ -55,8 +55,6 @@ static void take_row(struct rows_to_scans *gather, const struct test_row *row, i
         rows_to_scans_add_empty_row(gather, scan, row->time_us);
     }
 }
-
-/* ---- the reference with all rows in memory --------------------------------------------------- */
 
 static struct whole whole[ROWS];
 static size_t num_whole;
@@ -113,8 +111,6 @@ static void sort_reference_by_time(void)
         whole[at] = scan;
     }
 }
-
-/* ---- the tested grouping compared with the reference ----------------------------------------- */
 
 /* Completed scans equal the next scans of the reference. */
 static void check_completed_scans(struct rows_to_scans *gather, bool all, size_t *next)
@@ -228,8 +224,8 @@ static void times_may_go_back_within_a_numbered_scan_alone(void **state)
     take_row(&gather, &two, 0);
     take_row(&gather, &back, 0);
     assert_int_equal(gather.count, 2);
-    assert_null(rows_to_scans_find_scan_row_joins(&gather, 1, &other, 5 * SECOND));
-    assert_false(rows_to_scans_check_time_not_back(&gather, NULL, 5 * SECOND, &check));
+    assert_null(rows_to_scans_find_scan(&gather, 1, &other, 5 * SECOND));
+    assert_false(rows_to_scans_check_time(&gather, NULL, 5 * SECOND, &check));
     assert_string_equal(reason, "time decreases from 6.000000 s to 5.000000 s");
     rows_to_scans_free(&gather);
 }
@@ -289,10 +285,10 @@ static void scans_of_biased_clocks_are_sorted_by_common_time(void **state)
         while (rows_to_scans_take_scan(&gather, k == 299, &scan)) {
             const int element = *(const int32_t *)scan.elements;
 
-            assert_int_equal(gathered_scan_time_less_bias_us(&scan),
+            assert_int_equal(gathered_scan_time_us(&scan),
                              element * SECOND / 2 - biases_us[scan.sensor_id]);
-            assert_true(gathered_scan_time_less_bias_us(&scan) >= last_us);
-            last_us = gathered_scan_time_less_bias_us(&scan);
+            assert_true(gathered_scan_time_us(&scan) >= last_us);
+            last_us = gathered_scan_time_us(&scan);
             count++;
             gathered_scan_free(&scan);
         }

@@ -216,7 +216,7 @@ static void the_status_message_tells_the_origin(void **state)
 
     (void)state;
     open_node_core(&live);
-    node_core_send_all_status_messages(live.core, &losses);
+    node_core_send_status(live.core, &losses);
     assert_true(status->origin_lat_1e7deg == 0 && status->origin_lon_1e7deg == 0);
     node_core_close(live.core);
     assert_true(parameters_assign(&live.parameters, "origin_lat_deg", "-33.9461234", SOURCE_CONFIG,
@@ -226,7 +226,7 @@ static void the_status_message_tells_the_origin(void **state)
     assert_true(
         parameters_assign(&live.parameters, "origin_alt_m", "27.4321", SOURCE_CONFIG, reason));
     live.core = node_core_open(&live.parameters, 1, &events);
-    node_core_send_all_status_messages(live.core, &losses);
+    node_core_send_status(live.core, &losses);
     assert_int_equal(status->origin_lat_1e7deg, -339461234);
     assert_int_equal(status->origin_lon_1e7deg, 1511771234);
     assert_int_equal(status->origin_alt_mm, 27432);
@@ -247,7 +247,7 @@ static void work_and_unprinted_reports_are_sent_apart_from_status(void **state)
         take_bearing_scan(&live, 2, 0.0f, 20000.0f, k);
     }
     node_core_flush(live.core);
-    node_core_send_all_status_messages(live.core, &losses);
+    node_core_send_status(live.core, &losses);
     assert_int_equal(live.heard.status.fragments_refused, 3);
     assert_true(work->num_steps > 0);
     assert_int_equal(work->num_steps, node_core_node_counters(live.core)->steps);

@@ -245,8 +245,8 @@ static void add_run(struct figures *figures, const struct live *live, const stru
     figures->lost += live->lost;
     figures->scans += live->num_events;
     figures->late += node_core_assembler_counters(live->core)->scans_late;
-    figures->losses = out_of_sequence_counts_to_scan_losses(
-        node_core_used_out_of_sequence(live->core), node_core_assembler_counters(live->core));
+    figures->losses = out_of_sequence_counts_losses(node_core_used_out_of_sequence(live->core),
+                                                    node_core_assembler_counters(live->core));
     figures->retrodicted += tracker->scans_retrodicted;
     figures->stale += tracker->fates[RHO_FATE_STALE];
 }

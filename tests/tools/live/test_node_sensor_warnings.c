@@ -60,7 +60,7 @@ static void print_sensor_changes(void *context, const struct rho_report *report)
     struct live *live = context;
 
     (void)report;
-    node_sensors_print_suspicion_and_silence_changes(&live->said, live->core, live->lines);
+    node_sensors_print_changes(&live->said, live->core, live->lines);
 }
 
 /* Sets a parameter as a file for --config would. */
@@ -150,10 +150,10 @@ static void run_rounds(struct live *live, int32_t from, int32_t to, enum fault f
             }
         }
         node_core_tick(live->core, START_US + (round + 1) * ROUND_US);
-        node_sensors_print_suspicion_and_silence_changes(&live->said, live->core, live->lines);
+        node_sensors_print_changes(&live->said, live->core, live->lines);
     }
     const struct node_core_losses none = {.reports_not_printed = 0};
-    node_core_send_all_status_messages(live->core, &none);
+    node_core_send_status(live->core, &none);
     fflush(live->lines);
 }
 
@@ -191,7 +191,7 @@ static void no_warning_names_a_healthy_sensor(void **state)
     expect_other_sensors_well(live);
     assert_int_equal(sensor_in_list(live, 1)->is_doubted, 0);
     assert_int_equal(sensor_in_list(live, 1)->scans, 60);
-    node_sensors_print_suspect_and_silent(live->core, live->lines);
+    node_sensors_print_all(live->core, live->lines);
     fflush(live->lines);
     assert_string_equal(live->text, "");
     close_node_core(live);
@@ -225,7 +225,7 @@ static void a_biased_sensor_is_warned_of_once(void **state)
     times = number_between(live->text, "rhotrack: sensor 1 is suspect: its innovations are ",
                            " times what its sigmas say\n");
     assert_true(times >= 2.0 && times < 4.0);
-    node_sensors_print_suspect_and_silent(live->core, live->lines);
+    node_sensors_print_all(live->core, live->lines);
     fflush(live->lines);
     assert_non_null(strstr(live->text, "say\nrhotrack: sensor 1 contradicts the others\n"));
     close_node_core(live);
@@ -311,7 +311,7 @@ static void learned_values_are_sent_of_one_sensor_at_a_time(void **state)
     (void)state;
     run_rounds(live, 0, 40, WELL);
     for (int call = 1; call < 7; call++) {
-        node_core_send_all_status_messages(live->core, &none);
+        node_core_send_status(live->core, &none);
         assert_int_equal(learned->sensor_id, 1 + call % SENSORS);
         assert_int_equal(learned->scan, live->list.scan);
         assert_int_equal(learned->epoch, live->list.epoch);

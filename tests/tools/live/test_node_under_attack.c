@@ -451,7 +451,7 @@ static void scans_of_two_senders_of_one_number_are_warned_of_once(void **state)
     }
     run_node(&live);
     for (int i = 0; i < 2; i++) {
-        node_sensors_print_suspicion_and_silence_changes(&sensors, live.core, to);
+        node_sensors_print_changes(&sensors, live.core, to);
     }
     fclose(to);
     assert_string_equal(said, "rhotrack: sensor 1: a scan came twice with different contents: two "

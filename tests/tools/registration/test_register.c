@@ -16,7 +16,7 @@
 #include "pipeline/pipeline.h"
 #include "registration/cholesky.h"
 #include "registration/register.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 #include "tools/scene_for_tracker.h"
 
 #define SEED 4711
@@ -374,8 +374,8 @@ static void test_cholesky_inverse_and_failure(void **state)
     assert_true(fabs(back[0] - 2) < 1e-12 && fabs(back[1] - 13) < 1e-12 &&
                 fabs(back[2] - 12) < 1e-12);
     /* inverse: cofactors over the determinant of 64 */
-    assert_true(fabs(cholesky_inverse_diagonal_element(matrix, 3, 0, work) - 29.0 / 64.0) < 1e-12);
-    assert_true(fabs(cholesky_inverse_diagonal_element(matrix, 3, 2, work) - 16.0 / 64.0) < 1e-12);
+    assert_true(fabs(cholesky_inverse_diagonal(matrix, 3, 0, work) - 29.0 / 64.0) < 1e-12);
+    assert_true(fabs(cholesky_inverse_diagonal(matrix, 3, 2, work) - 16.0 / 64.0) < 1e-12);
     assert_false(cholesky_factor(singular, 2));
 }
 

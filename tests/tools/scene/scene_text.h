@@ -20,8 +20,8 @@
 #include <string.h>
 
 #include "base/portable_math.h"
-#include "scene/scene_objects_seen_repeatedly.h"
 #include "scene/scene_observe.h"
+#include "scene/scene_persistent.h"
 
 /*
  * JSON of a radar: 80 km range at the origin, 30 m, 3 mrad, 4 s a turn clockwise from north; and

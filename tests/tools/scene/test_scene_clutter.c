@@ -207,11 +207,10 @@ static void birds_fly_together_as_a_flock(void **state)
         size_t count, num_paths;
         struct scene_path *paths;
         struct scene_mover *birds =
-            draw_persistent_clutter_objects(seen.scene, 0, 5, 0, &count, &paths, &num_paths);
+            draw_persistent_clutter(seen.scene, 0, 5, 0, &count, &paths, &num_paths);
         struct motion at;
 
-        assert_true(mover_motion_folded_to_unambiguous_range_at(&birds[i], &seen.scene->sensors[0],
-                                                                77, &at));
+        assert_true(folded_motion_at(&birds[i], &seen.scene->sensors[0], 77, &at));
         assert_true(hypot(at.vx_mps + 10, at.vy_mps - 5) < 6.001);
         free(birds);
     }

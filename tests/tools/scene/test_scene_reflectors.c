@@ -71,7 +71,7 @@ static void the_tracker_is_told_of_marked_walls_only(void **state)
                             "{\"from_m\": [5, 2], \"to_m\": [3, 4]}]"));
     FILE *file = fmemopen(text, sizeof text, "w");
     (void)state;
-    scene_reflectors_write_told_walls_as_settings(&scene->reflectors, file);
+    scene_reflectors_write_told(&scene->reflectors, file);
     fclose(file);
     assert_string_equal(text, "reflectors = 1 2 3 4.5, 5 2 3 4\n");
     scene_free(scene);

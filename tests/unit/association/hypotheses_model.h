@@ -122,7 +122,7 @@ static inline int model_best_children_that_take_a_plot(const struct model_track 
         rho_imm_prepare_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
         if (model_step_filter(track, &moved, at->time_us,
                               scan->time_us + scan->plots[row].offset_us, 0) != RHO_OK ||
-            !rho_imm_predict_rates_and_score_plot(&moved, &seen, &child.match)) {
+            !rho_imm_score_plot(&moved, &seen, &child.match)) {
             continue;
         }
         child.weight = at->weight + log_pd + child.match.log_likelihood - clutter->log_per_m2;

@@ -308,7 +308,7 @@ static int score_plots(struct rho_hypotheses *of, uint16_t slot,
     struct rho_hypotheses_box reach;
     int num = 0;
 
-    rho_hypotheses_clear_candidates_get_gate_box(of, slot, &reach);
+    rho_hypotheses_gate_box(of, slot, &reach);
     assert_false(rho_hypotheses_has_candidates(of, slot));
     for (int row = 0; row < num_plots; ++row) {
         struct rho_imm_plot seen;

@@ -72,7 +72,7 @@ static int score_plots(struct rho_hypotheses *of, uint16_t slot, double time_s,
 {
     int num_near = 0;
 
-    rho_hypotheses_clear_candidates_get_gate_box(of, slot, NULL);
+    rho_hypotheses_gate_box(of, slot, NULL);
     for (int row = 0; row < num; ++row) {
         struct rho_imm_plot seen;
 
@@ -170,7 +170,7 @@ static void a_clutter_plot_taken_by_mistake_is_undone_later(void **state)
             struct rho_imm_match match;
 
             rho_imm_prepare_plot(&seen, &plot, 0, NULL);
-            assert_true(rho_imm_predict_rates_and_score_plot(&clean, &seen, &match));
+            assert_true(rho_imm_score_plot(&clean, &seen, &match));
             assert_int_equal(rho_imm_update(&clean, &model, &seen, &match), RHO_OK);
         }
     }
@@ -253,7 +253,7 @@ static void a_good_plot_of_another_track_leaves_the_miss_hypothesis(void **state
     init_pool();
     const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
     predict_track(&pool, slot, 1.0);
-    rho_hypotheses_clear_candidates_get_gate_box(&pool, slot, NULL);
+    rho_hypotheses_gate_box(&pool, slot, NULL);
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     assert_true(rho_hypotheses_score_plot(&pool, slot, &seen, 1000000, 0, -0.1f, &none, &gain_nat));
     assert_true(gain_nat > 40.0f);
@@ -297,7 +297,7 @@ static void plots_in_a_gate_are_inside_the_bounding_box(void **state)
             assert_int_equal(rho_hypotheses_update(&pool, slot, &seen, (int64_t)(1e6 * t)), RHO_OK);
         }
         predict_track(&pool, slot, 2.0 + time_s);
-        rho_hypotheses_clear_candidates_get_gate_box(&pool, slot, &reach);
+        rho_hypotheses_gate_box(&pool, slot, &reach);
         const struct rho_imm *imm = &rho_hypotheses_at(&pool, slot, 0)->imm;
         for (int k = 0; k < 40; ++k) {
             const double offset_s = uniform(-lag_s, lag_s), far = uniform(0.5, 5.0);
@@ -585,7 +585,7 @@ static void all_hypotheses_are_updated_with_a_plot_known_to_be_the_targets(void 
             if (offset_s < 0.0) {
                 assert_int_equal(rho_imm_predict_unmixed(&expected[i], &step), RHO_OK);
             }
-            if (!rho_imm_predict_rates_and_score_plot(&expected[i], &seen, &match)) {
+            if (!rho_imm_score_plot(&expected[i], &seen, &match)) {
                 match.probability = expected[i].probability;
             }
             assert_int_equal(rho_imm_update(&expected[i], &model, &seen, &match), RHO_OK);
@@ -723,7 +723,7 @@ static void arguments_are_checked(void **state)
         assert_int_equal(rho_hypotheses_count(&pool, none), 0);
         assert_null(rho_hypotheses_at(&pool, none, 0));
         rho_hypotheses_close(&pool, none);
-        rho_hypotheses_clear_candidates_get_gate_box(&pool, none, NULL);
+        rho_hypotheses_gate_box(&pool, none, NULL);
     }
     assert_memory_equal(&copy, &pool, sizeof pool);
     assert_int_equal(rho_hypotheses_open(&pool, &first, 0, &slot), RHO_OK);
@@ -741,7 +741,7 @@ static void arguments_are_checked(void **state)
     assert_int_equal(rho_hypotheses_score_plot(&pool, slot, NULL, 0, 0, 0.0f, &thin, &gain_nat), 0);
     assert_int_equal(rho_hypotheses_count(NULL, slot), 0);
     rho_hypotheses_close(NULL, slot);
-    rho_hypotheses_clear_candidates_get_gate_box(NULL, slot, NULL);
+    rho_hypotheses_gate_box(NULL, slot, NULL);
     assert_true(gain_nat == 7.0f);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 1);
 }
@@ -758,7 +758,7 @@ static void the_box_margin_grows_with_noise_and_own_time(void **state)
     init_pool();
     const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
     predict_track(&pool, slot, 1.0);
-    rho_hypotheses_clear_candidates_get_gate_box(&pool, slot, &box);
+    rho_hypotheses_gate_box(&pool, slot, &box);
     const float margin_m = rho_hypotheses_box_margin_m(&pool, slot, &box, 20.0f, 0.0f);
     assert_true(margin_m >= sqrtf(RHO_IMM_GATE) * 20.0f && margin_m <= 2.0f * 20.0f * 6.0f);
     assert_float_equal(rho_hypotheses_box_margin_m(&pool, slot, &box, 40.0f, 0.0f), 2.0f * margin_m,
@@ -775,16 +775,16 @@ static void prediction_back_without_noise_is_reversible(void **state)
     const uint16_t slot = open_track_at(&pool, 500.0f, -200.0f, 100.0f);
     predict_track(&pool, slot, 4.0);
     const struct rho_imm was = rho_hypotheses_at(&pool, slot, 0)->imm;
-    assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot, 1000000), RHO_OK);
+    assert_int_equal(rho_hypotheses_move(&pool, slot, 1000000), RHO_OK);
     const struct rho_imm *imm = &rho_hypotheses_at(&pool, slot, 0)->imm;
     assert_float_equal(imm->state[0], was.state[0] - 3.0f * was.state[3], 0.1);
-    assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot, 4000000), RHO_OK);
+    assert_int_equal(rho_hypotheses_move(&pool, slot, 4000000), RHO_OK);
     for (int i = 0; i < RHO_IMM_STATES; ++i) {
         assert_float_equal(imm->state[i], was.state[i], 1e-3 * (1.0 + fabs(was.state[i])));
     }
     assert_float_equal(imm->covariance[0], was.covariance[0], 0.01 * was.covariance[0]);
-    assert_int_equal(rho_hypotheses_predict_noiseless(NULL, slot, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot + 1, 0), RHO_ERROR_STATE);
+    assert_int_equal(rho_hypotheses_move(NULL, slot, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_move(&pool, slot + 1, 0), RHO_ERROR_STATE);
 }
 
 /* The pool's steps follow the new mean interval; a model without calm targets ignores it. */
@@ -798,7 +798,7 @@ static void the_mean_calm_interval_can_be_changed(void **state)
     init_pool();
     const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
     predict_track(&pool, slot, 2.0);
-    rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
+    rho_hypotheses_set_calm_s(&pool, 90.0f);
     model.calm_s = 90.0f;
     rho_imm_prepare_step(&expected, &model, 2.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
@@ -806,7 +806,7 @@ static void the_mean_calm_interval_can_be_changed(void **state)
 
     model.calm_s = 0.0f;
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
-    rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
+    rho_hypotheses_set_calm_s(&pool, 90.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
 }
 
@@ -821,9 +821,9 @@ static void the_motion_model_of_a_pool_can_be_replaced(void **state)
     init_pool();
     const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
     predict_track(&pool, slot, 2.0);
-    rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
+    rho_hypotheses_set_calm_s(&pool, 90.0f);
     model.drive_density *= 9.0f;
-    assert_int_equal(rho_hypotheses_set_model_but_calm_time(&pool, &model), RHO_OK);
+    assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_OK);
     model.calm_s = 90.0f;
     rho_imm_prepare_step(&expected, &model, 2.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
@@ -832,9 +832,9 @@ static void the_motion_model_of_a_pool_can_be_replaced(void **state)
 
     memcpy(&before, &pool, sizeof pool);
     model.memory_s = NAN;
-    assert_int_equal(rho_hypotheses_set_model_but_calm_time(&pool, &model), RHO_ERROR_CONFIG);
-    assert_int_equal(rho_hypotheses_set_model_but_calm_time(&pool, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_set_model_but_calm_time(NULL, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_hypotheses_set_model(&pool, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_set_model(NULL, &model), RHO_ERROR_NULL);
     assert_memory_equal(&pool, &before, sizeof pool);
 }
 

@@ -174,6 +174,8 @@ static void a_sector_continues_another_at_its_left_or_right_end(void **state)
     assert_int_equal(rho_angle_continued_ends(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0011f, 1.5f, 0.0f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.9989f, 1.5f, 0.0f), 0);
     /*
      * a gap between the sectors; the last argument is the largest gap allowed, and the nearer end
      * counts
@@ -336,13 +338,13 @@ static void ends_of_sectors_are_within_one_turn_of_zero(void **state)
     const float most_rad = RHO_TWO_PI, beyond_rad = nextafterf(RHO_TWO_PI, INFINITY);
 
     (void)state;
-    assert_true(rho_angle_are_sector_ends_valid(-most_rad, most_rad));
-    assert_true(rho_angle_are_sector_ends_valid(1.0f, 1.0f));
-    assert_false(rho_angle_are_sector_ends_valid(beyond_rad, 0.0f));
-    assert_false(rho_angle_are_sector_ends_valid(0.0f, beyond_rad));
-    assert_false(rho_angle_are_sector_ends_valid(-beyond_rad, 0.0f));
-    assert_false(rho_angle_are_sector_ends_valid(0.0f, NAN));
-    assert_false(rho_angle_are_sector_ends_valid(INFINITY, 0.0f));
+    assert_true(rho_angle_is_valid_sector(-most_rad, most_rad));
+    assert_true(rho_angle_is_valid_sector(1.0f, 1.0f));
+    assert_false(rho_angle_is_valid_sector(beyond_rad, 0.0f));
+    assert_false(rho_angle_is_valid_sector(0.0f, beyond_rad));
+    assert_false(rho_angle_is_valid_sector(-beyond_rad, 0.0f));
+    assert_false(rho_angle_is_valid_sector(0.0f, NAN));
+    assert_false(rho_angle_is_valid_sector(INFINITY, 0.0f));
 }
 
 int main(void)

@@ -69,7 +69,7 @@ static void a_rows_only_crossing_removes_the_others_of_its_column(void **state)
 {
     (void)state;
     set_matrix(2, 2, (const char *const[]){"10", "11"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_LITERAL), 1);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 1);
     expect_reasons((const char *const[]){"10", "r1"});
 }
 
@@ -77,7 +77,7 @@ static void removals_leave_further_rows_with_one_crossing(void **state)
 {
     (void)state;
     set_matrix(3, 3, (const char *const[]){"111", "110", "100"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_LITERAL), 3);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 3);
     expect_reasons((const char *const[]){"rr1", "r10", "100"});
 }
 
@@ -85,7 +85,7 @@ static void columns_with_one_crossing_are_pruned_after_rows(void **state)
 {
     (void)state;
     set_matrix(2, 3, (const char *const[]){"110", "111"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_LITERAL), 3);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 3);
     expect_reasons((const char *const[]){"1c0", "cc1"});
 }
 
@@ -93,8 +93,8 @@ static void without_single_crossings_nothing_is_removed(void **state)
 {
     (void)state;
     set_matrix(2, 2, (const char *const[]){"11", "11"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_LITERAL), 0);
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE), 0);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 0);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
     expect_reasons((const char *const[]){"11", "11"});
 }
 
@@ -103,10 +103,10 @@ static void of_two_beams_with_one_crossing_the_literal_rule_keeps_the_first(void
 {
     (void)state;
     set_matrix(2, 2, (const char *const[]){"10", "10"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_LITERAL), 1);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 1);
     expect_reasons((const char *const[]){"10", "r0"});
     set_matrix(2, 2, (const char *const[]){"10", "10"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE), 0);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
     expect_reasons((const char *const[]){"10", "10"});
 }
 
@@ -114,12 +114,12 @@ static void the_safe_rule_prunes_square_matrices_only(void **state)
 {
     (void)state;
     set_matrix(2, 3, (const char *const[]){"110", "111"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE), 0);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
     set_matrix(3, 3, (const char *const[]){"111", "110", "100"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE), 3);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 3);
     expect_reasons((const char *const[]){"uu1", "u10", "100"});
     set_matrix(3, 3, (const char *const[]){"111", "110", "100"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_NO_RULE), 0);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_NO_RULE), 0);
     expect_reasons((const char *const[]){"111", "110", "100"});
 }
 
@@ -131,10 +131,10 @@ static void the_safe_rule_prunes_by_matchings_without_single_crossings(void **st
 {
     (void)state;
     set_matrix(3, 3, (const char *const[]){"110", "110", "111"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE), 2);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 2);
     expect_reasons((const char *const[]){"110", "110", "uu1"});
     set_matrix(3, 3, (const char *const[]){"110", "110", "110"});
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE), 0);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
 }
 
 /*
@@ -181,7 +181,7 @@ static void the_safe_rule_keeps_all_crossings_of_complete_matchings(void **state
         draw_random_matrix(size, uniform(0.2, 0.9));
         const struct rho_ghost_matrix before = matrix;
         const unsigned matchings = add_matchings(0, (1u << size) - 1u, found);
-        const unsigned now = rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE);
+        const unsigned now = rho_ghost_prune(&matrix, RHO_GHOST_SAFE);
         without += matchings == 0;
         removed += now;
         for (unsigned i = 0; i < size; i++) {
@@ -215,7 +215,7 @@ static void figure_1_of_the_paper_keeps_its_targets_alone(void **state)
     assert_int_equal(matrix.reason[0][0], RHO_GHOST_KEPT);
     assert_int_equal(matrix.reason[1][1], RHO_GHOST_KEPT);
     assert_float_equal(matrix.delta_rad[0][0], a[0] - b[0], 1e-6);
-    rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_LITERAL);
+    rho_ghost_prune(&matrix, RHO_GHOST_LITERAL);
     assert_int_equal(matrix.reason[0][0], RHO_GHOST_KEPT);
     assert_int_equal(matrix.reason[1][1], RHO_GHOST_KEPT);
     assert_int_not_equal(matrix.reason[0][1], RHO_GHOST_KEPT);
@@ -316,7 +316,7 @@ static struct shares shares_removed(unsigned targets, double pd, double false_al
         assert_int_equal(rho_ghost_fill(&matrix, &base, a.bearing_rad, a.count, b.bearing_rad,
                                         b.count, RANGE_MAX_M),
                          RHO_OK);
-        rho_ghost_prune_and_count_removed(&matrix, rule);
+        rho_ghost_prune(&matrix, rule);
         count_removed_crossings(&a, &b, ghosts, seen);
     }
     return (struct shares){ghosts[1] / ghosts[0], seen[1] / seen[0]};
@@ -388,7 +388,7 @@ static void bad_arguments_are_refused(void **state)
                      RHO_ERROR_VALUE);
     assert_memory_equal(&before, &matrix, sizeof matrix);
     assert_int_equal(rho_ghost_fill(&matrix, &base, NULL, 0, NULL, 0, 1.0f), RHO_OK);
-    assert_int_equal(rho_ghost_prune_and_count_removed(&matrix, RHO_GHOST_SAFE), 0);
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
 }
 
 static void every_reason_has_a_name(void **state)

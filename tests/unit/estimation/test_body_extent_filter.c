@@ -59,7 +59,7 @@ static void length_and_width_are_estimated_without_the_plots_noise(void **state)
         }
         rho_body_shape(&body, &shape);
         assert_int_equal(body.track_id, 7);
-        assert_true(rho_body_along_variance_bound_m2(&body) < 1.1f * body.along_m2);
+        assert_true(rho_body_along_bound_m2(&body) < 1.1f * body.along_m2);
         assert_true(fabs((double)shape.length_m - 12.0) < 0.8);
         assert_true(fabs((double)shape.width_m - 3.0) < 0.7);
         assert_true(fabs((double)shape.length_m - 12.0) < 3.0 * (double)shape.sigma_length_m);
@@ -178,13 +178,13 @@ static void the_variance_of_the_mean_follows_the_share_of_missed_scatterers(void
     struct rho_body_filter body;
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f);
-    assert_true(rho_body_share_of_variance_of_plot_mean(&body, 1) == 1.0f);
+    assert_true(rho_body_mean_variance_share(&body, 1) == 1.0f);
     body.most_plots = 5;
-    assert_true(rho_body_share_of_variance_of_plot_mean(&body, 1) == 1.0f);
-    assert_true(rho_body_share_of_variance_of_plot_mean(&body, 5) < 0.05f);
-    assert_true(rho_body_share_of_variance_of_plot_mean(&body, 8) < 0.05f);
-    assert_true(fabs((double)rho_body_share_of_variance_of_plot_mean(&body, 4) - 0.25) < 0.05);
-    assert_true(fabs((double)rho_body_share_of_variance_of_plot_mean(&body, 2) - 0.75) < 0.05);
+    assert_true(rho_body_mean_variance_share(&body, 1) == 1.0f);
+    assert_true(rho_body_mean_variance_share(&body, 5) < 0.05f);
+    assert_true(rho_body_mean_variance_share(&body, 8) < 0.05f);
+    assert_true(fabs((double)rho_body_mean_variance_share(&body, 4) - 0.25) < 0.05);
+    assert_true(fabs((double)rho_body_mean_variance_share(&body, 2) - 0.75) < 0.05);
 }
 
 static void the_heading_follows_velocities_that_are_well_known(void **state)
@@ -198,7 +198,7 @@ static void the_heading_follows_velocities_that_are_well_known(void **state)
     rho_body_add_plots(&body, &look);
     assert_true(body.along_m2 == 9.0f && body.most_plots == 5);
     /* the bound for gates is larger while the length is unknown */
-    assert_true(rho_body_along_variance_bound_m2(&body) > 1.5f * 9.0f);
+    assert_true(rho_body_along_bound_m2(&body) > 1.5f * 9.0f);
     set_velocity(&body, 0.0f, 0.0f, 0.0f);
     assert_int_equal(body.has_heading, 0);
     set_velocity(&body, 3.0f, 4.0f, 0.25f);
@@ -276,7 +276,7 @@ static void a_new_body_has_the_prior_length_and_a_third_of_it_as_width(void **st
     float world[3];
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f);
-    expect_close((double)rho_body_along_variance_bound_m2(&body), 9.0 + 9.0 * 20.0 / 20.3);
+    expect_close((double)rho_body_along_bound_m2(&body), 9.0 + 9.0 * 20.0 / 20.3);
     set_velocity(&body, 10.0f, 0.0f, 0.0f);
     rho_body_place_covariance(&body, world);
     expect_close((double)world[0], 9.0);
@@ -403,7 +403,7 @@ static void every_update_agrees_with_the_derivation(void **state)
         expect_close((double)shape.length_m, sqrt(12.0 * reference.along_m2));
         expect_close((double)shape.width_m, sqrt(12.0 * reference.across_m2));
         expect_close((double)shape.plots, reference.plots);
-        expect_close((double)rho_body_along_variance_bound_m2(&body),
+        expect_close((double)rho_body_along_bound_m2(&body),
                      reference.along_m2 + prior_m2 * 20.0 / (20.0 + reference.along.weight));
         expect_close((double)shape.sigma_length_m,
                      expected_sigma_of_side(&reference.along, reference.along_m2,

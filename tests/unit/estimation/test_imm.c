@@ -526,7 +526,7 @@ static void update_pair_with_plot(struct pair *pair, const struct rho_plot *plot
 
     rho_imm_prepare_plot(&seen, plot, measures, sensor);
     pair->num_plots++;
-    if (!rho_imm_predict_rates_and_score_plot(&pair->imm, &seen, &match)) {
+    if (!rho_imm_score_plot(&pair->imm, &seen, &match)) {
         assert_true(here.nearest2 > 0.99 * RHO_IMM_GATE);
         return;
     }
@@ -728,7 +728,7 @@ static void compare_coupled_and_decoupled(struct rho_imm both[2], const struct r
         rho_imm_prepare_plot(&seen, &plot, num_axes == 3 ? RHO_MEASURES_Z : 0, NULL);
         for (int i = 0; i < 2; ++i) {
             assert_int_equal(rho_imm_predict(&both[i], &step), RHO_OK);
-            assert_true(rho_imm_predict_rates_and_score_plot(&both[i], &seen, &match[i]));
+            assert_true(rho_imm_score_plot(&both[i], &seen, &match[i]));
             assert_int_equal(rho_imm_update(&both[i], model, &seen, &match[i]), RHO_OK);
             rho_imm_estimate(&both[i], &estimate[i], NULL);
         }
@@ -816,8 +816,7 @@ static void a_prepared_gate_scores_as_a_single_plot_does(void **state)
             imm.steady.covariance[i % 21] *= i < 21 ? less : 1.0f;
         }
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_OK);
-        assert_true(
-            rho_imm_prepare_gate_if_uncoupled(&gate, &imm, sigma_m * sigma_m, measures != 0));
+        assert_true(rho_imm_prepare_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
         for (int k = 0; k < 5; ++k) {
             const double reach = 4.0 * k * sqrt(imm.covariance[0] + sigma_m * sigma_m) / 3.0;
             const struct rho_plot plot = {.x_m = imm.state[0] + (float)(reach * normal()),
@@ -832,10 +831,10 @@ static void a_prepared_gate_scores_as_a_single_plot_does(void **state)
 
             rho_imm_prepare_plot(&seen, &plot, measures, NULL);
             const float *place_m = seen.position.place_m;
-            const int is_near = rho_imm_predict_rates_and_score_plot(&imm, &seen, &one);
-            assert_int_equal(rho_imm_score_position_in_gate(&gate, place_m, -FLT_MAX,
-                                                            &log_likelihood, &probability),
-                             is_near);
+            const int is_near = rho_imm_score_plot(&imm, &seen, &one);
+            assert_int_equal(
+                rho_imm_score_in_gate(&gate, place_m, -FLT_MAX, &log_likelihood, &probability),
+                is_near);
             if (!is_near) {
                 continue;
             }
@@ -844,16 +843,14 @@ static void a_prepared_gate_scores_as_a_single_plot_does(void **state)
             assert_int_equal(gate.num_axes, one.num_axes);
             assert_true(one.has_velocity == 0 && one.has_range_rate == 0);
             /* with a limit: a likelier plot always has a score, one less likely by ln 2 never */
-            assert_true(rho_imm_score_position_in_gate(&gate, place_m,
-                                                       nextafterf(log_likelihood, -INFINITY),
-                                                       &log_likelihood, &probability));
-            assert_false(rho_imm_score_position_in_gate(&gate, place_m, log_likelihood + 0.694f,
-                                                        &log_likelihood, &probability));
+            assert_true(rho_imm_score_in_gate(&gate, place_m, nextafterf(log_likelihood, -INFINITY),
+                                              &log_likelihood, &probability));
+            assert_false(rho_imm_score_in_gate(&gate, place_m, log_likelihood + 0.694f,
+                                               &log_likelihood, &probability));
             num_in_gate++;
         }
         imm.is_coupled = 1;
-        assert_false(
-            rho_imm_prepare_gate_if_uncoupled(&gate, &imm, sigma_m * sigma_m, measures != 0));
+        assert_false(rho_imm_prepare_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
     }
     assert_true(num_in_gate > 3000);
 }
@@ -939,7 +936,7 @@ static void predicted_range_rates_agree_with_the_kalman_filters(void **state)
         at.covariance[RHO_AT(4, 3)] = (float)uniform(-8.0, 8.0);
         rho_imm_start(&imm, &model, &at);
         rho_imm_predict_range_rates(&rates, &imm, &sensor);
-        assert_true(rho_kalman_linearise_range_rate(&at, &sensor, 0.0f, FLT_MIN, &row));
+        assert_true(rho_kalman_linearise_rate(&at, &sensor, 0.0f, FLT_MIN, &row));
         const float variance =
             row.variance + rho_linalg_project6(at.covariance, row.row, projected);
         for (int i = 0; i < 2; ++i) {
@@ -1003,8 +1000,8 @@ static void scores_with_prepared_range_rates_equal_scores_without(void **state)
         rho_imm_start(&imm, &model, &at);
         rho_imm_predict_range_rates(&rates, &imm, &sensor);
         rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
-        const int is_near = rho_imm_predict_rates_and_score_plot(&imm, &seen, &one);
-        assert_int_equal(rho_imm_score_plot_with_rates(&imm, &rates, &seen, &other), is_near);
+        const int is_near = rho_imm_score_plot(&imm, &seen, &one);
+        assert_int_equal(rho_imm_score_with_rates(&imm, &rates, &seen, &other), is_near);
         if (is_near) {
             assert_float_equal(one.log_likelihood, other.log_likelihood, 1e-3);
             assert_float_equal(one.probability, other.probability, 1e-4);

@@ -112,7 +112,7 @@ static void only_predictions_with_mixing_change_the_calm_share(void **state)
     (void)state;
     imm.calm = 0.3f;
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
-    assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+    assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
     assert_int_equal(rho_imm_update_bearing(&imm, 0.0f, 5000.0f, -1.5f, 0.01f, &gain_nat), RHO_OK);
     rho_imm_prepare_step(&step, &model, 0.4f);
@@ -300,7 +300,7 @@ static void add_errors_of_run(const struct rho_imm_model *model, struct errors *
         }
         predict_filter(&imm, model, (float)PERIOD_S);
         rho_imm_prepare_plot(&seen, &plot, 0, NULL);
-        assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+        assert_true(rho_imm_score_plot(&imm, &seen, &match));
         assert_int_equal(rho_imm_update(&imm, model, &seen, &match), RHO_OK);
         rho_imm_estimate(&imm, &estimate, NULL);
         if (scan >= JUDGED_SCAN) {
@@ -356,7 +356,7 @@ static double car_velocity_error_mps(float accel_max_mps2)
 
             predict_filter(&imm, &model, 0.05f);
             rho_imm_prepare_plot(&seen, &plot, 0, NULL);
-            assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+            assert_true(rho_imm_score_plot(&imm, &seen, &match));
             assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
             rho_imm_estimate(&imm, &estimate, NULL);
             sum +=

@@ -56,7 +56,7 @@ static enum rho_status update_with_plot(struct rho_imm *imm, const struct rho_im
     struct rho_imm_match match;
 
     rho_imm_prepare_plot(&seen, plot, measures, NULL);
-    if (!rho_imm_predict_rates_and_score_plot(imm, &seen, &match)) {
+    if (!rho_imm_score_plot(imm, &seen, &match)) {
         match.probability = imm->probability;
     }
     return rho_imm_update(imm, model, &seen, &match);
@@ -110,7 +110,7 @@ static void assert_finite_and_within_limits(int n, const float *state, const flo
 
         assert_true(isfinite(state[i]));
         if (i % 3 < 2 || has_z) {
-            assert_true(variance >= RHO_KALMAN_VARIANCE_MIN && variance <= RHO_KALMAN_VARIANCE_MAX);
+            assert_true(variance >= RHO_VARIANCE_MIN && variance <= RHO_VARIANCE_MAX);
         } else {
             assert_true(variance == 0.0f && state[i] == 0.0f);
         }
@@ -122,7 +122,7 @@ static void assert_finite_and_within_limits(int n, const float *state, const flo
 
 static void assert_valid_filter(const struct rho_imm *imm)
 {
-    const int has_z = rho_kalman_has_estimate_on_axis(&imm->steady, 2);
+    const int has_z = rho_kalman_has_axis(&imm->steady, 2);
 
     assert_finite_and_within_limits(6, imm->steady.state, imm->steady.covariance, has_z);
     assert_finite_and_within_limits(RHO_IMM_STATES, imm->state, imm->covariance, has_z);
@@ -432,7 +432,7 @@ static void predictions_beyond_the_largest_variance_are_refused(void **state)
         imm = started_filter(&model, 3, 100.0f);
         imm.is_coupled = (uint8_t)coupled;
         assert_int_equal(predict_filter(&imm, &model, 1e5f), RHO_ERROR_VALUE);
-        imm = started_filter(&model, 3, RHO_KALMAN_VARIANCE_MAX);
+        imm = started_filter(&model, 3, RHO_VARIANCE_MAX);
         imm.is_coupled = (uint8_t)coupled;
         assert_int_equal(predict_filter(&imm, &model, 1.0f), RHO_ERROR_VALUE);
     }
@@ -486,7 +486,7 @@ static void plots_that_are_not_finite_are_in_no_gate_and_refused(void **state)
         *fields[field] = bad[n / 28];
         plot.sigma_cross_m = n % 4 < 2 ? 10.0f : 40.0f;
         rho_imm_prepare_plot(&seen, &plot, measures, NULL);
-        assert_false(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+        assert_false(rho_imm_score_plot(&imm, &seen, &match));
         match.probability = 0.5f;
         assert_int_not_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
     }
@@ -585,7 +585,7 @@ static void a_plot_in_the_gate_of_one_model_is_in_the_gate(void **state)
             imm.steady.state[0] += 1e6f;
         }
         rho_imm_prepare_plot(&seen, &plot, 0, NULL);
-        assert_int_equal(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match), is_inside);
+        assert_int_equal(rho_imm_score_plot(&imm, &seen, &match), is_inside);
         if (is_inside) {
             assert_float_equal(match.nis, 30.0 * 0.998, 0.01);
             assert_true(match.probability == (is_steady ? 0.0f : 1.0f));
@@ -613,7 +613,7 @@ static void a_model_of_probability_zero_can_recover(void **state)
     imm.state[0] += 1e5f;
     const struct rho_imm before = imm;
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
-    assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+    assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_true(match.probability == 0.0f && match.log_likelihood < -20.0f);
     assert_int_equal(rho_imm_update_bearing(&imm, 1000.0f, -8000.0f, 1.5707963f, 1e-3f, &gain_nat),
                      RHO_OK);
@@ -622,7 +622,7 @@ static void a_model_of_probability_zero_can_recover(void **state)
     imm.probability = 0.0f;
     imm.steady.state[0] += 2e5f;
     imm.state[0] -= 1e5f;
-    assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+    assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_true(match.probability == 1.0f && match.log_likelihood < -20.0f);
 }
 

@@ -192,8 +192,8 @@ static void update_input(struct pair *pair, const struct look *look)
                          RHO_OK);
     }
     for (int i = 0; i < look->num_elements; ++i) {
-        assert_int_equal(rho_input_update_filter_by_element(&pair->input, &pair->config, i,
-                                                            look->values[i], look->variance),
+        assert_int_equal(rho_input_update_element(&pair->input, &pair->config, i, look->values[i],
+                                                  look->variance),
                          RHO_OK);
     }
 }
@@ -243,7 +243,7 @@ static void predict_pair_and_assert_agreement(struct pair *pair, const struct sc
     assert_int_equal(rho_input_predict(&pair->input, &pair->config, (float)scene->setting.dt),
                      RHO_OK);
     ref_augmented_predict(&pair->augmented, &scene->setting);
-    rho_input_estimate_with_all_inputs(&pair->input, &estimate);
+    rho_input_gate_estimate(&pair->input, &estimate);
     assert_estimate_near_reference(&estimate, &pair->augmented, tolerance_of(scene));
 }
 
@@ -254,12 +254,12 @@ static int decide_pair_and_return_agreement(struct pair *pair, const struct scen
         ref_augmented_drop_inputs_and_margin_sigmas(&pair->augmented, &scene->setting);
     struct rho_kalman estimate;
 
-    rho_input_test_and_end_inputs(&pair->input, &pair->config);
+    rho_input_decide(&pair->input, &pair->config);
     if (margin < TOSS_UP && (int)pair->input.present != pair->augmented.present) {
         return 0;
     }
     assert_int_equal(pair->input.present, pair->augmented.present);
-    rho_input_get_corrected_estimate(&pair->input, &estimate);
+    rho_input_estimate(&pair->input, &estimate);
     assert_estimate_near_reference(&estimate, &pair->augmented, tolerance_of(scene));
     assert_inputs_near_reference(&pair->input, &pair->augmented, tolerance_of(scene));
     return 1;
@@ -384,10 +384,10 @@ static void the_library_agrees_with_the_augmented_filter(void **state)
                 const struct look look = measure(truth, &scene);
                 update_input(&pair, &look);
                 ref_augmented_update(&pair.augmented, &look.reference);
-                rho_input_test_and_end_inputs(&pair.input, &pair.config);
+                rho_input_decide(&pair.input, &pair.config);
                 assert_int_equal(pair.input.present, 7);
                 pair.augmented.present = 7;
-                rho_input_get_corrected_estimate(&pair.input, &estimate);
+                rho_input_estimate(&pair.input, &estimate);
                 assert_estimate_near_reference(&estimate, &pair.augmented, tolerance_of(&scene));
                 assert_inputs_near_reference(&pair.input, &pair.augmented, tolerance_of(&scene));
             }
@@ -505,7 +505,7 @@ static void assert_pair_agrees(const struct pair *pair)
 {
     struct rho_kalman estimate;
 
-    rho_input_get_corrected_estimate(&pair->input, &estimate);
+    rho_input_estimate(&pair->input, &estimate);
     assert_estimate_near_reference(&estimate, &pair->augmented, loose);
     assert_inputs_near_reference(&pair->input, &pair->augmented, loose);
 }

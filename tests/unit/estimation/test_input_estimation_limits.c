@@ -46,10 +46,9 @@ static void follow_pushed_target(struct rho_input *input, const struct rho_input
         const float truth[STATES] = {100.0f, 200.0f, z, 0.0f, 0.0f, speed};
         assert_int_equal(rho_input_predict(input, config, DT_S), RHO_OK);
         for (int i = 0; i < STATES; ++i) {
-            assert_int_equal(rho_input_update_filter_by_element(input, config, i, truth[i], 1.0f),
-                             RHO_OK);
+            assert_int_equal(rho_input_update_element(input, config, i, truth[i], 1.0f), RHO_OK);
         }
-        rho_input_test_and_end_inputs(input, config);
+        rho_input_decide(input, config);
     }
 }
 
@@ -200,11 +199,11 @@ static void the_literal_model_sees_no_input_in_positions(void **state)
         for (int k = 1; k <= 20; ++k) {
             assert_int_equal(rho_input_predict(&input, &config, DT_S), RHO_OK);
             for (int axis = 0; axis < 3; ++axis) {
-                assert_int_equal(rho_input_update_filter_by_element(
-                                     &input, &config, axis, 100.0f + 40.0f * (float)(k * k), 1.0f),
+                assert_int_equal(rho_input_update_element(&input, &config, axis,
+                                                          100.0f + 40.0f * (float)(k * k), 1.0f),
                                  RHO_OK);
             }
-            rho_input_test_and_end_inputs(&input, &config);
+            rho_input_decide(&input, &config);
             seen |= input.present;
         }
         assert_int_equal(seen, model == RHO_INPUT_PHYSICAL ? 7 : 0);
@@ -260,13 +259,12 @@ static void without_input_estimation_it_equals_the_kalman_filter(void **state)
         assert_int_equal(rho_input_update_position(&input, &config, &seen), RHO_OK);
         assert_int_equal(rho_kalman_update_position(&kalman, &seen, config.velocity_variance),
                          RHO_OK);
-        assert_int_equal(rho_input_update_filter_by_element(&input, &config, k % 6, 50.0f, 30.0f),
-                         RHO_OK);
+        assert_int_equal(rho_input_update_element(&input, &config, k % 6, 50.0f, 30.0f), RHO_OK);
         assert_int_equal(rho_kalman_update(&kalman, k % 6, 50.0f, 30.0f, NULL), RHO_OK);
         assert_int_equal(rho_input_update_range_rate(&input, &config, NULL, 20.0f, 4.0f), RHO_OK);
         assert_int_equal(rho_kalman_update_range_rate(&kalman, NULL, 20.0f, 4.0f), RHO_OK);
-        rho_input_test_and_end_inputs(&input, &config);
-        rho_input_get_corrected_estimate(&input, &estimate);
+        rho_input_decide(&input, &config);
+        rho_input_estimate(&input, &estimate);
         assert_memory_equal(&estimate, &kalman, sizeof kalman);
     }
     assert_int_equal(input.present, 0);
@@ -341,13 +339,12 @@ static void an_axis_opened_later_can_have_an_input(void **state)
     for (int k = 0; k < 10; ++k) {
         assert_int_equal(rho_input_predict(&input, &config, DT_S), RHO_OK);
         assert_true(input.sensitivity[2][5] == 0.0f && input.bare.covariance[RHO_AT(2, 2)] == 0.0f);
-        assert_int_equal(rho_input_update_filter_by_element(&input, &config, 0, 100.0f, 1.0f),
-                         RHO_OK);
-        rho_input_test_and_end_inputs(&input, &config);
+        assert_int_equal(rho_input_update_element(&input, &config, 0, 100.0f, 1.0f), RHO_OK);
+        rho_input_decide(&input, &config);
     }
     assert_int_equal(rho_input_update_position(&input, &config, &seen), RHO_OK);
-    assert_true(rho_kalman_has_estimate_on_axis(&input.bare, 2));
-    rho_input_test_and_end_inputs(&input, &config);
+    assert_true(rho_kalman_has_axis(&input.bare, 2));
+    rho_input_decide(&input, &config);
     follow_pushed_target(&input, &config, 21, 21, 98.0f);
     assert_int_equal(input.present, 4);
 }
@@ -406,15 +403,11 @@ static void null_is_refused(void **state)
     (void)state;
     assert_int_equal(rho_input_predict(NULL, &config, 1.0f), RHO_ERROR_NULL);
     assert_int_equal(rho_input_predict(&input, NULL, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_filter_by_element(NULL, &config, 0, 1.0f, 1.0f),
-                     RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_filter_by_element(&input, NULL, 0, 1.0f, 1.0f),
-                     RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_filter_by_row(NULL, &config, row, 1.0f, 1.0f),
-                     RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_filter_by_row(&input, NULL, row, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_filter_by_row(&input, &config, NULL, 1.0f, 1.0f),
-                     RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_element(NULL, &config, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_element(&input, NULL, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_row(NULL, &config, row, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_row(&input, NULL, row, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_row(&input, &config, NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_position(NULL, &config, &seen), RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_position(&input, NULL, &seen), RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_position(&input, &config, NULL), RHO_ERROR_NULL);
@@ -424,8 +417,8 @@ static void null_is_refused(void **state)
                      RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_bearing(&input, NULL, 0.0f, 0.0f, 1.0f, 0.1f),
                      RHO_ERROR_NULL);
-    rho_input_test_and_end_inputs(NULL, &config);
-    rho_input_test_and_end_inputs(&input, NULL);
+    rho_input_decide(NULL, &config);
+    rho_input_decide(&input, NULL);
     rho_input_config_default(NULL);
     assert_memory_equal(&input, &before, sizeof input);
 }
@@ -443,15 +436,13 @@ static void bad_numbers_change_nothing(void **state)
         for (int i = 0; i < STATES; ++i) {
             float row[STATES] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
 
-            assert_int_not_equal(
-                rho_input_update_filter_by_element(&input, &config, i, bad[k], 1.0f), RHO_OK);
-            assert_int_not_equal(
-                rho_input_update_filter_by_element(&input, &config, i, 1.0f, bad[k]), RHO_OK);
+            assert_int_not_equal(rho_input_update_element(&input, &config, i, bad[k], 1.0f),
+                                 RHO_OK);
+            assert_int_not_equal(rho_input_update_element(&input, &config, i, 1.0f, bad[k]),
+                                 RHO_OK);
             row[i] = bad[k];
-            assert_int_not_equal(rho_input_update_filter_by_row(&input, &config, row, 1.0f, 1.0f),
-                                 RHO_OK);
-            assert_int_not_equal(rho_input_update_filter_by_row(&input, &config, row, bad[k], 1.0f),
-                                 RHO_OK);
+            assert_int_not_equal(rho_input_update_row(&input, &config, row, 1.0f, 1.0f), RHO_OK);
+            assert_int_not_equal(rho_input_update_row(&input, &config, row, bad[k], 1.0f), RHO_OK);
         }
         for (int i = 0; i < 6; ++i) {
             struct rho_measurement seen = {.place_m = {100.0f, 200.0f, 900.0f},
@@ -474,14 +465,10 @@ static void bad_numbers_change_nothing(void **state)
         assert_int_not_equal(rho_input_update_bearing(&input, &config, 0.0f, 0.0f, 1.0f, bad[k]),
                              RHO_OK);
     }
-    assert_int_equal(rho_input_update_filter_by_element(&input, &config, 6, 1.0f, 1.0f),
-                     RHO_ERROR_VALUE);
-    assert_int_equal(rho_input_update_filter_by_element(&input, &config, -1, 1.0f, 1.0f),
-                     RHO_ERROR_VALUE);
-    assert_int_equal(rho_input_update_filter_by_element(&input, &config, 0, 1.0f, 0.0f),
-                     RHO_ERROR_VALUE);
-    assert_int_equal(rho_input_update_filter_by_element(&input, &config, 0, FLT_MAX, 1.0f),
-                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_element(&input, &config, 6, 1.0f, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_element(&input, &config, -1, 1.0f, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_element(&input, &config, 0, 1.0f, 0.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_element(&input, &config, 0, FLT_MAX, 1.0f), RHO_ERROR_VALUE);
     assert_int_equal(rho_input_predict(&input, &config, 1.1e5f), RHO_ERROR_VALUE);
     assert_memory_equal(&input, &before, sizeof input);
 }
@@ -527,9 +514,9 @@ static void assert_valid_filter(const struct rho_input *input)
             assert_true(isfinite(input->sensitivity[axis][i]));
         }
     }
-    rho_input_estimate_with_all_inputs(input, &estimate);
+    rho_input_gate_estimate(input, &estimate);
     assert_true(is_positive_definite(&estimate));
-    rho_input_get_corrected_estimate(input, &estimate);
+    rho_input_estimate(input, &estimate);
     assert_true(is_positive_definite(&estimate));
     for (int i = 0; i < PACKED; ++i) {
         assert_true(isfinite(estimate.covariance[i]));
@@ -581,17 +568,17 @@ static enum rho_status make_random_call(struct rho_input *input,
     case 4:
         return update_with_random_position(input, config);
     case 5:
-        return rho_input_update_filter_by_row(input, config, row, first, second);
+        return rho_input_update_row(input, config, row, first, second);
     case 6:
         return rho_input_update_range_rate(input, config, NULL, first, second);
     case 7:
         return rho_input_update_bearing(input, config, first, second, (float)uniform(-3.0, 3.0),
                                         1e-3f);
     case 8:
-        rho_input_test_and_end_inputs(input, config);
+        rho_input_decide(input, config);
         return RHO_OK;
     default:
-        return rho_input_update_filter_by_element(input, config, element, first, second);
+        return rho_input_update_element(input, config, element, first, second);
     }
 }
 
@@ -642,11 +629,11 @@ static void a_vague_input_with_a_sharp_sensor_stays_positive_definite(void **sta
         assert_int_equal(rho_input_predict(&input, &config, 10.0f), RHO_OK);
         for (int axis = 0; axis < 3; ++axis) {
             assert_int_equal(
-                rho_input_update_filter_by_element(
-                    &input, &config, axis, 100.0f * (float)(axis + 1) + 20.0f * t_s * t_s, 1.0f),
+                rho_input_update_element(&input, &config, axis,
+                                         100.0f * (float)(axis + 1) + 20.0f * t_s * t_s, 1.0f),
                 RHO_OK);
         }
-        rho_input_test_and_end_inputs(&input, &config);
+        rho_input_decide(&input, &config);
         assert_valid_filter(&input);
         assert_int_equal(input.present, 7);
     }
@@ -676,16 +663,15 @@ static void an_onset_seen_by_a_sharp_sensor_is_estimated(void **state)
             const double s = input.sensitivity[axis][axis], v = 4e6;
             const float onset_m = k == 25 ? 500.0f : 0.0f;
 
-            assert_int_equal(
-                rho_input_update_filter_by_element(&input, &config, axis,
-                                                   100.0f * (float)(axis + 1) + onset_m, 1e-4f),
-                RHO_OK);
+            assert_int_equal(rho_input_update_element(&input, &config, axis,
+                                                      100.0f * (float)(axis + 1) + onset_m, 1e-4f),
+                             RHO_OK);
             assert_float_equal(input.variance[RHO_AT(axis, axis)],
                                v * variance / (v * s * s + variance),
                                1e-4 * v * variance / (v * s * s + variance));
             assert_valid_filter(&input);
         }
-        rho_input_test_and_end_inputs(&input, &config);
+        rho_input_decide(&input, &config);
         assert_int_equal(input.present, k == 25 ? 7 : 0);
         assert_valid_filter(&input);
     }
@@ -710,7 +696,7 @@ static void an_estimate_widened_by_an_input_stays_positive_definite(void **state
 
         assert_int_equal(rho_input_start(&input, &config, &sharp), RHO_OK);
         assert_int_equal(rho_input_predict(&input, &config, (float)uniform(0.1, 3.0)), RHO_OK);
-        rho_input_estimate_with_all_inputs(&input, &estimate);
+        rho_input_gate_estimate(&input, &estimate);
         assert_true(is_positive_definite(&estimate));
     }
 }

@@ -103,18 +103,18 @@ static void an_axis_is_open_after_it_was_opened(void **state)
     (void)state;
     rho_kalman_init(&kalman);
     for (int axis = 0; axis < 3; ++axis) {
-        assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, axis), 0);
+        assert_int_equal(rho_kalman_has_axis(&kalman, axis), 0);
         assert_int_equal(rho_kalman_open_axis(&kalman, axis, -5.0f, 4.0f, 9.0f), RHO_OK);
-        assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, axis), 1);
+        assert_int_equal(rho_kalman_has_axis(&kalman, axis), 1);
         assert_true(kalman.state[axis] == -5.0f && kalman.state[axis + 3] == 0.0f);
         assert_true(kalman.covariance[RHO_AT(axis, axis)] == 4.0f);
         assert_true(kalman.covariance[RHO_AT(axis + 3, axis + 3)] == 9.0f);
     }
-    assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, -1), 0);
-    assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, 3), 0);
-    assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, INT32_MAX), 0);
-    assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, INT32_MIN), 0);
-    assert_int_equal(rho_kalman_has_estimate_on_axis(NULL, 0), 0);
+    assert_int_equal(rho_kalman_has_axis(&kalman, -1), 0);
+    assert_int_equal(rho_kalman_has_axis(&kalman, 3), 0);
+    assert_int_equal(rho_kalman_has_axis(&kalman, INT32_MAX), 0);
+    assert_int_equal(rho_kalman_has_axis(&kalman, INT32_MIN), 0);
+    assert_int_equal(rho_kalman_has_axis(NULL, 0), 0);
 }
 
 static void opening_an_axis_again_removes_its_correlations(void **state)
@@ -159,7 +159,7 @@ static void a_closed_axis_stays_zero(void **state)
         }
         assert_true(kalman.state[2] == 0.0f && kalman.state[5] == 0.0f);
         assert_true(nis == 9.0f);
-        assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, 2), 0);
+        assert_int_equal(rho_kalman_has_axis(&kalman, 2), 0);
     }
 }
 

@@ -52,8 +52,8 @@ static void assert_linearised_bearing(const float state[STATES], const double pl
     const double range_m = hypot(at.x[0] - place[0], at.x[1] - place[1]);
     float row[STATES], off_m, seen_range_m;
 
-    assert_int_equal(rho_measurement_bearing_innovation(state, (float)place[0], (float)place[1],
-                                                        (float)bearing, row, &off_m, &seen_range_m),
+    assert_int_equal(rho_measurement_bearing_row(state, (float)place[0], (float)place[1],
+                                                 (float)bearing, row, &off_m, &seen_range_m),
                      1);
     assert_float_equal(seen_range_m, range_m, 3e-7 * range_m);
     assert_float_equal(off_m, expected.y[0], OFF_RAD * range_m);
@@ -87,15 +87,12 @@ static void bearings_to_the_west_wrap(void **state)
     const double own_rad = atan2(3.0, -5000.0);
 
     (void)state;
-    assert_int_equal(
-        rho_measurement_bearing_innovation(at, 0.0f, 0.0f, -3.14f, row, &off_m, &range_m), 1);
+    assert_int_equal(rho_measurement_bearing_row(at, 0.0f, 0.0f, -3.14f, row, &off_m, &range_m), 1);
     assert_float_equal(off_m, 5000.0 * (2.0 * DENSE_PI - 3.14 - own_rad), 0.02);
-    assert_int_equal(
-        rho_measurement_bearing_innovation(at, 0.0f, 0.0f, 3.14f, row, &off_m, &range_m), 1);
+    assert_int_equal(rho_measurement_bearing_row(at, 0.0f, 0.0f, 3.14f, row, &off_m, &range_m), 1);
     assert_float_equal(off_m, 5000.0 * (3.14 - own_rad), 0.02);
     assert_int_equal(
-        rho_measurement_bearing_innovation(at, 0.0f, 0.0f, (float)DENSE_PI, row, &off_m, &range_m),
-        1);
+        rho_measurement_bearing_row(at, 0.0f, 0.0f, (float)DENSE_PI, row, &off_m, &range_m), 1);
     assert_float_equal(off_m, 3.0, 0.02);
     assert_float_equal(row[0], 0.0, 1e-3);
     assert_float_equal(row[1], -1.0, 1e-6);
@@ -106,7 +103,7 @@ static void assert_bearing_undefined(const float state[STATES])
     float row[STATES] = {GUARD, GUARD, GUARD, GUARD, GUARD, GUARD}, off_m = GUARD, range_m = GUARD;
 
     assert_int_equal(
-        rho_measurement_bearing_innovation(state, 100.0f, 200.0f, 1.0f, row, &off_m, &range_m), 0);
+        rho_measurement_bearing_row(state, 100.0f, 200.0f, 1.0f, row, &off_m, &range_m), 0);
     for (int i = 0; i < STATES; ++i) {
         assert_true(row[i] == GUARD);
     }
@@ -132,8 +129,8 @@ static void a_state_at_the_sensor_has_no_bearing(void **state)
     }
     at[0] = 101.0f;
     at[1] = 200.0f;
-    assert_int_equal(
-        rho_measurement_bearing_innovation(at, 100.0f, 200.0f, 1.0f, row, &off_m, &range_m), 1);
+    assert_int_equal(rho_measurement_bearing_row(at, 100.0f, 200.0f, 1.0f, row, &off_m, &range_m),
+                     1);
     assert_float_equal(range_m, 1.0, 1e-6);
 }
 
@@ -148,17 +145,16 @@ static void bearings_and_sigmas_out_of_range_are_invalid(void **state)
     (void)state;
     for (size_t i = 0; i < NUM(good_sigma); ++i) {
         for (size_t k = 0; k < NUM(good_rad); ++k) {
-            assert_true(rho_measurement_is_valid_bearing(
+            assert_true(rho_bearing_is_valid(
                 &(struct rho_bearing){.bearing_rad = good_rad[k], .sigma_rad = good_sigma[i]}));
         }
         for (size_t k = 0; k < NUM(bad_rad); ++k) {
-            assert_false(rho_measurement_is_valid_bearing(
+            assert_false(rho_bearing_is_valid(
                 &(struct rho_bearing){.bearing_rad = bad_rad[k], .sigma_rad = good_sigma[i]}));
         }
     }
     for (size_t k = 0; k < NUM(bad_sigma); ++k) {
-        assert_false(
-            rho_measurement_is_valid_bearing(&(struct rho_bearing){.sigma_rad = bad_sigma[k]}));
+        assert_false(rho_bearing_is_valid(&(struct rho_bearing){.sigma_rad = bad_sigma[k]}));
     }
 }
 

@@ -14,8 +14,8 @@ static void open_axis_refuses_bad_arguments(void **state)
                                    NAN,
                                    INFINITY,
                                    -INFINITY,
-                                   nextafterf(RHO_KALMAN_VARIANCE_MIN, 0.0f),
-                                   nextafterf(RHO_KALMAN_VARIANCE_MAX, INFINITY)};
+                                   nextafterf(RHO_VARIANCE_MIN, 0.0f),
+                                   nextafterf(RHO_VARIANCE_MAX, INFINITY)};
     const float bad_positions[] = {NAN, INFINITY, -INFINITY};
     const int bad_axes[] = {-1, 3, INT32_MAX, INT32_MIN};
     struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
@@ -38,9 +38,8 @@ static void open_axis_refuses_bad_arguments(void **state)
                          RHO_ERROR_VALUE);
     }
     assert_changed_nothing(&kalman, &before);
-    assert_int_equal(
-        rho_kalman_open_axis(&kalman, 0, 0.0f, RHO_KALMAN_VARIANCE_MIN, RHO_KALMAN_VARIANCE_MAX),
-        RHO_OK);
+    assert_int_equal(rho_kalman_open_axis(&kalman, 0, 0.0f, RHO_VARIANCE_MIN, RHO_VARIANCE_MAX),
+                     RHO_OK);
 }
 
 static void assert_prediction_refused(struct rho_kalman kalman, float dt_s, float noise_density)
@@ -178,8 +177,7 @@ static void a_measurement_of_huge_variance_changes_no_covariance(void **state)
 
     (void)state;
     for (size_t i = 0; i < NUM(variances); ++i) {
-        struct rho_kalman kalman =
-            opened_filter(3, RHO_KALMAN_VARIANCE_MIN, RHO_KALMAN_VARIANCE_MIN);
+        struct rho_kalman kalman = opened_filter(3, RHO_VARIANCE_MIN, RHO_VARIANCE_MIN);
         const struct rho_kalman before = kalman;
 
         assert_int_equal(rho_kalman_update(&kalman, 0, 5.0f, variances[i], NULL), RHO_OK);
@@ -197,7 +195,7 @@ static void variances_do_not_fall_below_their_minimum(void **state)
         struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
         assert_int_equal(rho_kalman_update(&kalman, element, 1.0f, 1e-30f, NULL), RHO_OK);
-        assert_true(kalman.covariance[RHO_AT(element, element)] == RHO_KALMAN_VARIANCE_MIN);
+        assert_true(kalman.covariance[RHO_AT(element, element)] == RHO_VARIANCE_MIN);
         assert_finite_with_variances_in_limits(&kalman);
         assert_true(is_positive_definite(&kalman));
     }
@@ -342,12 +340,12 @@ static void an_ambiguous_range_rate_is_unfolded_if_the_estimate_is_sharp(void **
             assert_int_equal(rho_kalman_open_axis(&at, axis, axis ? 0.0f : 1e4f, 1.0f, variance),
                              RHO_OK);
         }
-        assert_true(rho_kalman_linearise_range_rate(&at, &sensor, 0.0f, 1.0f, &seen));
-        assert_int_equal(rho_kalman_can_unfold_range_rate(&at, &sensor, &seen) != 0, !is_vague);
-        assert_true(rho_kalman_can_unfold_range_rate(&at, NULL, &seen));
+        assert_true(rho_kalman_linearise_rate(&at, &sensor, 0.0f, 1.0f, &seen));
+        assert_int_equal(rho_kalman_can_unfold(&at, &sensor, &seen) != 0, !is_vague);
+        assert_true(rho_kalman_can_unfold(&at, NULL, &seen));
     }
     sensor.range_rate_span_mps = 0.0f; /* 0: range rates are not ambiguous */
-    assert_true(rho_kalman_can_unfold_range_rate(&at, &sensor, &seen));
+    assert_true(rho_kalman_can_unfold(&at, &sensor, &seen));
 }
 
 int main(void)

@@ -160,7 +160,7 @@ static void a_first_position_opens_its_axes(void **state)
         dense_open_place(&expected, &place, 0, axes, SPEED_VARIANCE);
         rho_kalman_init(&kalman);
         assert_position_update(&kalman, &seen, &expected, &expected, OPEN_RELATIVE);
-        assert_int_equal(rho_kalman_has_estimate_on_axis(&kalman, 2), axes == 3);
+        assert_int_equal(rho_kalman_has_axis(&kalman, 2), axes == 3);
     }
 }
 
@@ -248,7 +248,7 @@ static void a_first_height_of_a_very_wide_plot_is_accepted(void **state)
         kalman.state[0] = plot.x_m;
         kalman.state[1] = plot.y_m;
         assert_int_equal(rho_kalman_update_position(&kalman, &seen, SPEED_VARIANCE), RHO_OK);
-        assert_true(rho_kalman_has_estimate_on_axis(&kalman, 2));
+        assert_true(rho_kalman_has_axis(&kalman, 2));
     }
 }
 

@@ -94,7 +94,7 @@ static void rows_leave_a_closed_axis_zero(void **state)
 /* A measurement variance below the minimum has the same effect as the minimum. */
 static void row_variances_below_the_minimum_act_as_the_minimum(void **state)
 {
-    const float variances[] = {1e-30f, FLT_TRUE_MIN, 0.5f * RHO_KALMAN_VARIANCE_MIN};
+    const float variances[] = {1e-30f, FLT_TRUE_MIN, 0.5f * RHO_VARIANCE_MIN};
 
     (void)state;
     for (int element = 0; element < STATES; ++element) {
@@ -103,9 +103,9 @@ static void row_variances_below_the_minimum_act_as_the_minimum(void **state)
         float row[STATES] = {0.0f}, floor_nis = GUARD;
 
         row[element] = 1.0f;
-        assert_int_equal(
-            rho_kalman_update_row(&floor, row, 3e-5f, RHO_KALMAN_VARIANCE_MIN, &floor_nis), RHO_OK);
-        assert_true(floor.covariance[RHO_AT(element, element)] == RHO_KALMAN_VARIANCE_MIN);
+        assert_int_equal(rho_kalman_update_row(&floor, row, 3e-5f, RHO_VARIANCE_MIN, &floor_nis),
+                         RHO_OK);
+        assert_true(floor.covariance[RHO_AT(element, element)] == RHO_VARIANCE_MIN);
         assert_finite_with_variances_in_limits(&floor);
         for (size_t k = 0; k < NUM(variances); ++k) {
             struct rho_kalman kalman = before;

@@ -36,13 +36,13 @@ static struct rho_plot plot_at(float x_m, float y_m)
 static void a_place_is_viewed_by_direction_and_range(void **state)
 {
     const struct rho_sensor sensor = {.x_m = 100.0f, .y_m = -50.0f};
-    const struct echo_view view = rho_clutter_map_view_from_sensor(&sensor, 100.0f, 950.0f);
-    const struct echo_view at_origin = rho_clutter_map_view_from_sensor(NULL, -3.0f, 0.0f);
-    const struct echo_view none = rho_clutter_map_view_from_sensor(&sensor, 100.0f, -50.0f);
+    const struct echo_view view = rho_clutter_map_view(&sensor, 100.0f, 950.0f);
+    const struct echo_view at_origin = rho_clutter_map_view(NULL, -3.0f, 0.0f);
+    const struct echo_view none = rho_clutter_map_view(&sensor, 100.0f, -50.0f);
 
     (void)state;
     assert_true(view.along_x == 0.0f && view.along_y == 1.0f && view.range_m == 1000.0f);
-    assert_true(fabsf(rho_clutter_map_azimuth_in_turns(&view) - 0.75f) < 1e-6f);
+    assert_true(fabsf(rho_clutter_map_azimuth_turns(&view) - 0.75f) < 1e-6f);
     assert_true(at_origin.along_x == -1.0f && at_origin.range_m == 3.0f);
     assert_true(none.range_m == 0.0f);
 }
@@ -55,7 +55,7 @@ static void regions_divide_directions_and_ranges(void **state)
     (void)state;
     for (int i = 0; i < 400; i++) {
         const double azimuth_rad = 2.0 * PI * i / 400.0, range_m = 1e4 * ((i * 7) % 400) / 400.0;
-        const unsigned region = rho_clutter_map_region_of_place(
+        const unsigned region = rho_clutter_map_region_at(
             NULL, 1e4f, (float)(range_m * cos(azimuth_rad)), (float)(range_m * sin(azimuth_rad)));
 
         assert_in_range(region, 0, RHO_ECHO_REGIONS * RHO_ECHO_REGIONS - 1);
@@ -64,9 +64,9 @@ static void regions_divide_directions_and_ranges(void **state)
     assert_true(met == (RHO_ECHO_REGIONS * RHO_ECHO_REGIONS >= 32
                             ? UINT32_MAX
                             : (1u << RHO_ECHO_REGIONS * RHO_ECHO_REGIONS) - 1u));
-    assert_int_equal(rho_clutter_map_region_of_place(NULL, 1e4f, 5e4f, 1.0f),
+    assert_int_equal(rho_clutter_map_region_at(NULL, 1e4f, 5e4f, 1.0f),
                      /* beyond the range: as at its end */
-                     rho_clutter_map_region_of_place(NULL, 1e4f, 9.99e3f, 1.0f));
+                     rho_clutter_map_region_at(NULL, 1e4f, 9.99e3f, 1.0f));
 }
 
 static void hits_are_grouped_into_four_classes(void **state)

@@ -414,8 +414,7 @@ static void predicted_range_rates_and_their_derivatives_are_right(void **state)
             single[i] = (float)(i < 3 ? uniform(-3e4, 3e4) : uniform(-400.0, 400.0));
             at[i] = single[i];
         }
-        assert_int_equal(rho_measurement_predict_range_rate(single, &somewhere, use_z, row, &rate),
-                         1);
+        assert_int_equal(rho_measurement_predict_rate(single, &somewhere, use_z, row, &rate), 1);
         assert_float_equal(rate, range_rate_of(at, use_z), 2e-3);
         for (int i = 0; i < 6; i++) {
             double step = i < 3 ? 1.0 : 0.01, up[6], down[6];
@@ -430,9 +429,9 @@ static void predicted_range_rates_and_their_derivatives_are_right(void **state)
     }
     const float there[6] = {1200.5f, -3400.0f, 250.0f, 100.0f, 0.0f, 0.0f};
     float row[6] = {0.0f}, rate = 5.0f;
-    assert_int_equal(rho_measurement_predict_range_rate(there, &somewhere, 1, row, &rate), 0);
+    assert_int_equal(rho_measurement_predict_rate(there, &somewhere, 1, row, &rate), 0);
     assert_float_equal(rate, 5.0f, 0.0f);
-    assert_int_equal(rho_measurement_predict_range_rate(there, NULL, 1, row, &rate), 1);
+    assert_int_equal(rho_measurement_predict_rate(there, NULL, 1, row, &rate), 1);
 }
 
 static void a_place_is_covered_within_sector_and_range(void **state)
@@ -473,8 +472,8 @@ static void the_innovation_of_a_bearing_is_in_metres_across(void **state)
         const double bearing = remainder(atan2(dy, dx) + off_rad, 2.0 * PI);
         float row[6], off_m = 0.0f, range_m = 0.0f;
 
-        assert_true(rho_measurement_bearing_innovation(state_m, 300.0f, -700.0f, (float)bearing,
-                                                       row, &off_m, &range_m));
+        assert_true(rho_measurement_bearing_row(state_m, 300.0f, -700.0f, (float)bearing, row,
+                                                &off_m, &range_m));
         assert_true(fabs(range_m - range) <= 1e-6 * range);
         assert_true(fabs(off_m - range * off_rad) <= 2e-6 * range);
         assert_true(fabs(row[0] + dy / range) <= 1e-6 && fabs(row[1] - dx / range) <= 1e-6);
@@ -491,14 +490,11 @@ static void a_bearing_needs_a_metre_of_range_and_finite_states(void **state)
     const float at_m[6] = {1.0f, 0.0f};
 
     (void)state;
-    assert_false(
-        rho_measurement_bearing_innovation(near_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-    assert_false(
-        rho_measurement_bearing_innovation(none_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-    assert_false(
-        rho_measurement_bearing_innovation(far_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(rho_measurement_bearing_row(near_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(rho_measurement_bearing_row(none_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(rho_measurement_bearing_row(far_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
     assert_true(row[0] == 7.0f && off_m == 7.0f && range_m == 7.0f);
-    assert_true(rho_measurement_bearing_innovation(at_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_true(rho_measurement_bearing_row(at_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
 }
 
 static void bearings_out_of_range_are_invalid(void **state)
@@ -507,18 +503,18 @@ static void bearings_out_of_range_are_invalid(void **state)
     struct rho_bearing bad = good;
 
     (void)state;
-    assert_true(rho_measurement_is_valid_bearing(&good));
+    assert_true(rho_bearing_is_valid(&good));
     bad.bearing_rad = nextafterf(RHO_PI, 4.0f);
-    assert_false(rho_measurement_is_valid_bearing(&bad));
+    assert_false(rho_bearing_is_valid(&bad));
     bad.bearing_rad = NAN;
-    assert_false(rho_measurement_is_valid_bearing(&bad));
+    assert_false(rho_bearing_is_valid(&bad));
     bad = good;
     bad.sigma_rad = nextafterf(RHO_LIMIT_SIGMA_RAD_MAX, INFINITY);
-    assert_false(rho_measurement_is_valid_bearing(&bad));
+    assert_false(rho_bearing_is_valid(&bad));
     bad.sigma_rad = nextafterf(RHO_LIMIT_SIGMA_RAD_MIN, 0.0f);
-    assert_false(rho_measurement_is_valid_bearing(&bad));
+    assert_false(rho_bearing_is_valid(&bad));
     bad.sigma_rad = RHO_LIMIT_SIGMA_RAD_MIN;
-    assert_true(rho_measurement_is_valid_bearing(&bad));
+    assert_true(rho_bearing_is_valid(&bad));
 }
 
 static void learned_percentages_scale_the_sigmas(void **state)
@@ -532,9 +528,9 @@ static void learned_percentages_scale_the_sigmas(void **state)
     assert_true(factors.range == 0.5f && factors.cross == 2.5f);
     assert_true(rho_measurement_sigma_factors(&stated).range == 1.0f);
     assert_true(rho_measurement_sigma_factors(NULL).cross == 1.0f);
-    assert_true(rho_measurement_sigma_factor_at_least_one(&learned) == 2.5f);
-    assert_true(rho_measurement_sigma_factor_at_least_one(&sharper) == 1.0f);
-    assert_true(rho_measurement_sigma_factor_at_least_one(NULL) == 1.0f);
+    assert_true(rho_measurement_factor_max(&learned) == 2.5f);
+    assert_true(rho_measurement_factor_max(&sharper) == 1.0f);
+    assert_true(rho_measurement_factor_max(NULL) == 1.0f);
 }
 
 static void time_biases_are_rounded_to_microseconds(void **state)

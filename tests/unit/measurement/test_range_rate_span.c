@@ -33,17 +33,16 @@ static void innovations_are_folded_to_half_the_span(void **state)
         {20.0f, -20.0f, -10.0f}, {7.0f, -243.0f, 0.0f}, {7.0f, 255.0f, 2.0f},
         {410.0f, 8.0f, 2.0f},    {24.0f, 0.0f, 24.0f},  {26.0f, 0.0f, -24.0f}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        assert_float_equal(
-            rho_measurement_range_rate_innovation_mps(&sensor, cases[i][0], cases[i][1]),
-            cases[i][2], 1e-4);
+        assert_float_equal(rho_measurement_innovation_mps(&sensor, cases[i][0], cases[i][1]),
+                           cases[i][2], 1e-4);
         float all = cases[i][0] - cases[i][1];
-        assert_float_equal(
-            rho_measurement_range_rate_innovation_mps(&whole, cases[i][0], cases[i][1]), all, 0.0);
-        assert_float_equal(
-            rho_measurement_range_rate_innovation_mps(NULL, cases[i][0], cases[i][1]), all, 0.0);
+        assert_float_equal(rho_measurement_innovation_mps(&whole, cases[i][0], cases[i][1]), all,
+                           0.0);
+        assert_float_equal(rho_measurement_innovation_mps(NULL, cases[i][0], cases[i][1]), all,
+                           0.0);
     }
-    assert_true(isnan(rho_measurement_range_rate_innovation_mps(&sensor, NAN, 0.0f)));
-    assert_float_equal(rho_measurement_range_rate_innovation_mps(&sensor, 1e30f, 0.0f), 1e30f, 0.0);
+    assert_true(isnan(rho_measurement_innovation_mps(&sensor, NAN, 0.0f)));
+    assert_float_equal(rho_measurement_innovation_mps(&sensor, 1e30f, 0.0f), 1e30f, 0.0);
 }
 
 /* An innovation of more than a million spans is left as it is. */
@@ -51,24 +50,23 @@ static void innovations_beyond_a_million_spans_are_not_folded(void **state)
 {
     const struct rho_sensor sensor = radar_with_span(10.0f);
     (void)state;
-    assert_float_equal(rho_measurement_range_rate_innovation_mps(&sensor, 0.0f, 7.0e6f + 2.0f),
-                       -2.0, 0.0);
-    assert_float_equal(rho_measurement_range_rate_innovation_mps(&sensor, 0.0f, 1.5e7f + 2.0f),
-                       -1.5e7 - 2.0, 0.0);
+    assert_float_equal(rho_measurement_innovation_mps(&sensor, 0.0f, 7.0e6f + 2.0f), -2.0, 0.0);
+    assert_float_equal(rho_measurement_innovation_mps(&sensor, 0.0f, 1.5e7f + 2.0f), -1.5e7 - 2.0,
+                       0.0);
 }
 
 static void a_range_rate_is_unfolded_if_three_sigmas_are_within_half_the_span(void **state)
 {
     (void)state;
     const struct rho_sensor sensor = radar_with_span(30.0f), whole = radar_with_span(0.0f);
-    assert_true(rho_measurement_can_unfold_range_rate(&sensor, 24.9f));
-    assert_false(rho_measurement_can_unfold_range_rate(&sensor, 25.1f));
-    assert_false(rho_measurement_can_unfold_range_rate(&sensor, NAN));
-    assert_true(rho_measurement_can_unfold_range_rate(&whole, 1e9f));
-    assert_true(rho_measurement_can_unfold_range_rate(NULL, 1e9f));
-    assert_float_equal(rho_measurement_log_num_aliases(&sensor, 300.0f), log(20.0), 1e-5);
-    assert_float_equal(rho_measurement_log_num_aliases(&sensor, 10.0f), 0.0, 0.0);
-    assert_float_equal(rho_measurement_log_num_aliases(&whole, 300.0f), 0.0, 0.0);
+    assert_true(rho_measurement_can_unfold(&sensor, 24.9f));
+    assert_false(rho_measurement_can_unfold(&sensor, 25.1f));
+    assert_false(rho_measurement_can_unfold(&sensor, NAN));
+    assert_true(rho_measurement_can_unfold(&whole, 1e9f));
+    assert_true(rho_measurement_can_unfold(NULL, 1e9f));
+    assert_float_equal(rho_measurement_log_aliases(&sensor, 300.0f), log(20.0), 1e-5);
+    assert_float_equal(rho_measurement_log_aliases(&sensor, 10.0f), 0.0, 0.0);
+    assert_float_equal(rho_measurement_log_aliases(&whole, 300.0f), 0.0, 0.0);
 }
 
 /*
@@ -82,16 +80,16 @@ static void correlated_innovations_select_the_multiple_of_the_span(void **state)
     /* place and range rate: variances of 400, correlation 0.99, 2.8 m/s remain */
     const float covariance[3] = {400.0f, 396.0f, 400.0f};
     float innovation[2] = {40.0f, -8.0f};
-    assert_true(rho_measurement_unfold_range_rate(&sensor, 2, covariance, innovation));
+    assert_true(rho_measurement_unfold_rate(&sensor, 2, covariance, innovation));
     assert_float_equal(innovation[1], 42.0, 1e-4);
     const float apart[3] = {400.0f, 0.0f, 400.0f};
     innovation[1] = -8.0f;
-    assert_false(rho_measurement_unfold_range_rate(&sensor, 2, apart, innovation));
+    assert_false(rho_measurement_unfold_rate(&sensor, 2, apart, innovation));
     assert_float_equal(innovation[1], -8.0, 0.0);
     const float singular[3] = {400.0f, 400.0f, 400.0f};
-    assert_false(rho_measurement_unfold_range_rate(&sensor, 2, singular, innovation));
+    assert_false(rho_measurement_unfold_rate(&sensor, 2, singular, innovation));
     innovation[1] = 999.0f;
-    assert_true(rho_measurement_unfold_range_rate(NULL, 2, apart, innovation));
+    assert_true(rho_measurement_unfold_rate(NULL, 2, apart, innovation));
     assert_float_equal(innovation[1], 999.0, 0.0);
 }
 
@@ -104,12 +102,12 @@ static void spans_beyond_the_limits_are_refused(void **state)
     begin_tracker();
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         struct rho_sensor sensor = radar_with_span(good[i]);
-        assert_true(rho_measurement_has_valid_place_and_biases(&sensor));
+        assert_true(rho_measurement_is_valid_site(&sensor));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
     }
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct rho_sensor sensor = radar_with_span(bad[i]);
-        assert_false(rho_measurement_has_valid_place_and_biases(&sensor));
+        assert_false(rho_measurement_is_valid_site(&sensor));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_ERROR_CONFIG);
     }
 }
@@ -244,8 +242,8 @@ static void the_imm_scores_and_updates_with_ambiguous_range_rates(void **state)
     twin = imm;
     rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
     rho_imm_prepare_plot(&whole_seen, &whole_plot, RHO_MEASURES_RANGE_RATE, &whole);
-    assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
-    assert_true(rho_imm_predict_rates_and_score_plot(&twin, &whole_seen, &expected));
+    assert_true(rho_imm_score_plot(&imm, &seen, &match));
+    assert_true(rho_imm_score_plot(&twin, &whole_seen, &expected));
     assert_float_equal(match.log_likelihood, expected.log_likelihood, 2e-3);
     assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
     assert_int_equal(rho_imm_update(&twin, &model, &whole_seen, &expected), RHO_OK);
@@ -254,8 +252,8 @@ static void the_imm_scores_and_updates_with_ambiguous_range_rates(void **state)
     rho_imm_start(&imm, &model, &unclear);
     twin = imm;
     rho_imm_prepare_plot(&place_seen, &plot, 0, &sensor);
-    assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
-    assert_true(rho_imm_predict_rates_and_score_plot(&twin, &place_seen, &expected));
+    assert_true(rho_imm_score_plot(&imm, &seen, &match));
+    assert_true(rho_imm_score_plot(&twin, &place_seen, &expected));
     assert_float_equal(match.log_likelihood, (double)expected.log_likelihood - log((double)SPAN),
                        1e-3);
     assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);

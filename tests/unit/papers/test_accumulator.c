@@ -190,7 +190,7 @@ static void a_share_of_1_keeps_the_peak_with_the_most_votes(void **state)
         struct rho_peak_list list = {.peaks = room, .max_peaks = 2, .min_share = 1.0f};
         rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = votes[i]});
         rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = votes[i] / 2u});
-        rho_peak_list_drop_weak_and_sort(&list);
+        rho_peak_list_sort(&list);
         assert_int_equal(list.num_peaks, 1);
         assert_int_equal(room[0].votes, votes[i]);
     }

@@ -355,8 +355,8 @@ static void bad_estimates_given_by_a_caller_start_no_track(void **state)
                {0, RHO_AT(RHO_X, RHO_X), INFINITY},
                {0, RHO_AT(RHO_VY, RHO_VY), -1.0f},
                {0, RHO_AT(RHO_VY, RHO_VY), NAN},
-               {0, RHO_AT(RHO_X, RHO_X), 2.0f * RHO_KALMAN_VARIANCE_MAX},
-               {0, RHO_AT(RHO_VX, RHO_VX), 0.5f * RHO_KALMAN_VARIANCE_MIN},
+               {0, RHO_AT(RHO_X, RHO_X), 2.0f * RHO_VARIANCE_MAX},
+               {0, RHO_AT(RHO_VX, RHO_VX), 0.5f * RHO_VARIANCE_MIN},
                {0, RHO_AT(RHO_VX, RHO_X), 2001.0f}, /* variances 1e4 and 400: 2000 at most */
                {0, RHO_AT(RHO_Y, RHO_X), 1.1e4f},   /* a correlation above 1 */
                {0, RHO_AT(RHO_VX, RHO_X), NAN},

@@ -247,9 +247,9 @@ static void a_first_height_opens_the_third_axis(void **state)
                             .sigma_mps = 1.0f};
     struct rho_track_plot seen = seen_at(8000000, &plot);
     seen.measures = RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
-    assert_false(rho_kalman_has_estimate_on_axis(&track.kalman, 2));
+    assert_false(rho_kalman_has_axis(&track.kalman, 2));
     assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 0), RHO_OK);
-    assert_true(rho_kalman_has_estimate_on_axis(&track.kalman, 2));
+    assert_true(rho_kalman_has_axis(&track.kalman, 2));
     assert_float_equal(track.kalman.state[2], 3000.0f, 0.1f);
     assert_float_equal(track.kalman.state[5], 5.0f, 0.5f);
     /* at 56 degrees of elevation the variance of z is se^2 100 + ce^2 400, of both sigmas */

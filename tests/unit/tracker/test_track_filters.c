@@ -189,7 +189,7 @@ static enum rho_status commit_plots(struct rho_track *track, const struct rho_pl
 {
     const struct rho_hypotheses_scan scan = {
         .time_us = track->time_us, .plots = plots, .log_miss = log_miss};
-    return rho_track_commit_hypotheses_to_scan(track, &scan, 8, &model);
+    return rho_track_commit_scan(track, &scan, 8, &model);
 }
 
 static void commit_and_settle_need_a_filter_of_hypotheses(void **state)
@@ -212,9 +212,9 @@ static void commit_and_settle_need_a_filter_of_hypotheses(void **state)
     }
     set_filter(RHO_TRACK_HYPOTHESES);
     struct rho_track track = start_track();
-    assert_int_equal(rho_track_commit_hypotheses_to_scan(NULL, &scan, 8, &model), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, NULL, 8, &model), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, &scan, 8, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_scan(NULL, &scan, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_scan(&track, NULL, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_scan(&track, &scan, 8, NULL), RHO_ERROR_NULL);
 }
 
 /* Steps a track of hypotheses with the plots of a scan; row 0 is its own. */
@@ -227,7 +227,7 @@ static void step_hypotheses(struct rho_track *track, int k, const struct rho_plo
     float gain_nat;
     track->plot = -1;
     assert_int_equal(rho_track_predict(track, (int64_t)SCAN_US * k, &model), RHO_OK);
-    rho_hypotheses_clear_candidates_get_gate_box(&pool, track->slot, &reach);
+    rho_hypotheses_gate_box(&pool, track->slot, &reach);
     for (int i = 0; i < num_plots; i++) {
         rho_imm_prepare_plot(&opened, &plots[i], 0, NULL);
         (void)rho_hypotheses_score_plot(&pool, track->slot, &opened, (int64_t)SCAN_US * k,
@@ -387,7 +387,7 @@ static void only_input_estimation_widens_the_gate(void **state)
         assert_int_equal(rho_track_predict(&track, 4 * SCAN_US, &model), RHO_OK);
         rho_track_estimate_for_gate(&track, &expected);
         if (filter == RHO_TRACK_INPUT) {
-            rho_input_estimate_with_all_inputs(&track.input, &of_input);
+            rho_input_gate_estimate(&track.input, &of_input);
             assert_memory_equal(&expected, &of_input, sizeof expected);
             /* 22 m/s^2 for a second: 11 m */
             assert_true(expected.covariance[RHO_AT(0, 0)] >

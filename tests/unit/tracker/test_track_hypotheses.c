@@ -67,7 +67,7 @@ static int is_plot_in_gate(uint16_t slot, int scan, const struct rho_plot *plot,
     float gain_nat = 0.0f;
     const int64_t time_us = (int64_t)scan * SCAN_US;
     assert_int_equal(rho_hypotheses_predict(&pool, slot, time_us), RHO_OK);
-    rho_hypotheses_clear_candidates_get_gate_box(&pool, slot, reach);
+    rho_hypotheses_gate_box(&pool, slot, reach);
     rho_imm_prepare_plot(&seen, plot, measures, NULL);
     return rho_hypotheses_score_plot(&pool, slot, &seen, time_us, 0, LOG_PD, &clutter, &gain_nat);
 }
@@ -164,7 +164,7 @@ static void a_plot_is_scored_at_its_own_time(void **state)
     float first_nat = 0.0f, second_nat = 0.0f;
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     uint16_t slot = open_slot();
-    rho_hypotheses_clear_candidates_get_gate_box(&pool, slot, &reach);
+    rho_hypotheses_gate_box(&pool, slot, &reach);
     assert_int_equal(
         rho_hypotheses_score_plot(&pool, slot, &seen, 4 * SCAN_US, 0, LOG_PD, &clutter, &first_nat),
         1);
@@ -190,8 +190,8 @@ static void a_track_that_scores_no_plot_claims_none(void **state)
     assert_int_equal(rho_track_start(&track, 1, &start, 1, &model, 0), RHO_OK);
     assert_int_equal(track.plot, 7);
     assert_int_equal(rho_track_predict(&track, SCAN_US, &model), RHO_OK);
-    rho_hypotheses_clear_candidates_get_gate_box(&pool, track.slot, NULL);
-    assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, &scan, 0, &model), RHO_OK);
+    rho_hypotheses_gate_box(&pool, track.slot, NULL);
+    assert_int_equal(rho_track_commit_scan(&track, &scan, 0, &model), RHO_OK);
     assert_int_equal(track.plot, -1);
 }
 

@@ -158,6 +158,40 @@ static void every_configuration_within_its_ranges_initialises(void **state)
     }
 }
 
+/* A plot raises a track's score by ln 100 less where clutter is 100 times as dense. */
+static void a_stated_clutter_density_lowers_scores(void **state)
+{
+    float score_nat[2];
+
+    (void)state;
+    assert_int_equal(rho_tracker_set_clutter(NULL, 1.0f), RHO_ERROR_NULL);
+    memset(&tracker, 0, sizeof tracker);
+    assert_int_equal(rho_tracker_set_clutter(&tracker, 1.0f), RHO_ERROR_STATE);
+    for (int i = 0; i < 2; i++) {
+        struct rho_scan scan = {.time_us = SCAN_US, .plots = plots};
+        struct rho_track_plot start = {.row = -1};
+
+        start_tracker();
+        assert_int_equal(rho_tracker_set_clutter(&tracker, -1.0f), RHO_ERROR_VALUE);
+        assert_int_equal(rho_tracker_set_clutter(&tracker, NAN), RHO_ERROR_VALUE);
+        assert_int_equal(rho_tracker_set_clutter(&tracker, i ? 1e-9f : 1e-11f), RHO_OK);
+        assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+        add_plot(0.0f, 0.0f);
+        start.plot = plots[0];
+        start.time_us = scan.time_us;
+        assert_int_equal(rho_tracker_start_track(&tracker, &start, 1, 0, &report), RHO_OK);
+        scan.time_us = 2 * SCAN_US;
+        scan.num_plots = 1;
+        assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+        score_nat[i] = report.tracks[0].score_nat;
+    }
+    assert_float_equal(score_nat[0] - score_nat[1], logf(100.0f), 0.1f);
+    assert_int_equal(rho_tracker_set_clutter(&tracker, 0.0f), RHO_OK);
+    assert_int_equal(rho_tracker_is_sound(&tracker), 1);
+    tracker.clutter_per_m2 = NAN;
+    assert_int_equal(rho_tracker_is_sound(&tracker), 0);
+}
+
 static void forgotten_sensors_free_their_place(void **state)
 {
     struct rho_sensor sensor = {.pd = 0.9f, .range_max_m = 1000.0f};
@@ -466,6 +500,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_init_and_sensors_are_refused),
         cmocka_unit_test(every_configuration_within_its_ranges_initialises),
+        cmocka_unit_test(a_stated_clutter_density_lowers_scores),
         cmocka_unit_test(forgotten_sensors_free_their_place),
         cmocka_unit_test(refused_scans_change_nothing),
         cmocka_unit_test(every_plot_has_one_fate),

@@ -206,7 +206,7 @@ static void the_nearest_plot_agrees_with_an_exhaustive_search(void **state)
         for (int i = 0; i < 50; i++) {
             struct rho_window_work work = {0};
             struct rho_window_query query = random_query(scan);
-            int nearest = rho_window_nearest_plot_in_sigmas_isotropic(scan, &query, &work);
+            int nearest = rho_window_nearest_isotropic(scan, &query, &work);
             assert_int_equal(nearest, nearest_without_bins(scan, &query));
             assert_int_equal(work.lookups, 1);
             found += nearest >= 0;
@@ -230,8 +230,7 @@ static void bins_reduce_the_number_of_distance_tests(void **state)
                                          .sigma_factor = 1.0f,
                                          .gate_chi2 = 13.8f,
                                          .gate_radius_m = 40.0f};
-        (void)rho_window_nearest_plot_in_sigmas_isotropic(rho_window_scan_at(&window, 0), &query,
-                                                          &work);
+        (void)rho_window_nearest_isotropic(rho_window_scan_at(&window, 0), &query, &work);
     }
     assert_in_range(work.distances, 1, 200 * 100 / 50);
 }
@@ -402,7 +401,7 @@ static void the_nearest_plot_uses_covariance_height_and_range_rate(void **state)
             struct rho_window_place place = random_place(measures);
             struct rho_window_work work = {0};
             double best = limit, chosen = limit;
-            int nearest = rho_window_nearest_plot_anisotropic(scan, &place, &work);
+            int nearest = rho_window_nearest_plot(scan, &place, &work);
             for (int k = 0; k < scan->num_plots; k++) {
                 struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)k);
                 double d2 = nis_in_double_precision(&plot, measures, &place);
@@ -427,8 +426,7 @@ static void stored_covariances_follow_the_line_of_sight(void **state)
         const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
         for (int i = 0; i < scan->num_plots; i++) {
             struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)i);
-            struct rho_window_plot_noise_covariance noise =
-                rho_window_plot_noise_covariance(scan, &scan->plots[i]);
+            struct rho_window_plot_noise noise = rho_window_plot_noise(scan, &scan->plots[i]);
             double r[3][3];
             plot_covariance(&plot, round, r);
             double scale = r[0][0] + r[1][1];
@@ -518,23 +516,20 @@ static void the_next_sector_of_a_turn_continues_its_scan(void **state)
     (void)state;
     init_window(3);
     struct rho_scan scan = quarter_turn_scan(0, 0.0f);
-    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan,
-                                                          &turning)); /* the window is empty */
+    assert_false(rho_window_continues_newest(&window, &scan, &turning)); /* the window is empty */
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
     scan = quarter_turn_scan(1000000, 90.0f);
-    assert_int_equal(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning) != 0,
-                     RHO_SECTORS);
-    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan, &moved));
+    assert_int_equal(rho_window_continues_newest(&window, &scan, &turning) != 0, RHO_SECTORS);
+    assert_false(rho_window_continues_newest(&window, &scan, &moved));
     scan.sensor_id = 6;
-    assert_false(rho_window_is_next_sector_of_newest_scan(
-        &window, &scan, &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
+    assert_false(rho_window_continues_newest(&window, &scan,
+                                             &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
     scan = quarter_turn_scan(1000000, 90.0f + 40.0f); /* a gap of an eighth of a turn */
-    assert_int_equal(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning) != 0,
-                     RHO_SECTORS);
+    assert_int_equal(rho_window_continues_newest(&window, &scan, &turning) != 0, RHO_SECTORS);
     scan = quarter_turn_scan(1000000, 90.0f + 50.0f);
-    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning));
+    assert_false(rho_window_continues_newest(&window, &scan, &turning));
     scan = quarter_turn_scan(RHO_LIMIT_OFFSET_US + INT64_C(1), 90.0f);
-    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning));
+    assert_false(rho_window_continues_newest(&window, &scan, &turning));
 }
 
 /* Two sectors of one time: their plots' times do not tell them apart. */

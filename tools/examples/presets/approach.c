@@ -40,5 +40,5 @@ int main(void)
             return 2;
         }
     }
-    return print_tracks_and_give_exit_code(&departure, time_s);
+    return print_tracks(&departure, time_s);
 }

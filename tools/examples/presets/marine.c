@@ -39,5 +39,5 @@ int main(void)
             return 2;
         }
     }
-    return print_tracks_and_give_exit_code(&ferry, time_s);
+    return print_tracks(&ferry, time_s);
 }

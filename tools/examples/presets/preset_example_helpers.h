@@ -104,7 +104,7 @@ static int step_scan(float time_s)
  * Prints the tracks, and returns the exit code: 0 where the only track is confirmed and close to
  * the target.
  */
-static int print_tracks_and_give_exit_code(const struct target *target, float time_s)
+static int print_tracks(const struct target *target, float time_s)
 {
     int found = 0;
     for (unsigned i = 0; i < report.num_tracks; i++) {

@@ -13,7 +13,7 @@
 int board_try_to_open(void);
 
 /*
- * Microseconds since the start. This function or board_sleep_until_event_or_time must be called at
+ * Microseconds since the start. This function or board_sleep_until must be called at
  * least once a minute, or time is lost.
  */
 int64_t board_time_us(void);
@@ -37,7 +37,7 @@ uint32_t board_num_unsent(void);
 int32_t board_count_start(void);
 
 /* Sleeps until a datagram may have arrived or the time is until_us; may return earlier. */
-void board_sleep_until_event_or_time(int64_t until_us);
+void board_sleep_until(int64_t until_us);
 
 /* Prints a line on the board's console. */
 void board_print_line(const char *text);

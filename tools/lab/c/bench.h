@@ -29,6 +29,6 @@ void bench_passive(const struct bench *bench);
 void bench_node(const struct bench *bench);
 
 /* Compares the slowest scan of 5000 plots of several shapes with the median of uniform clutter. */
-void bench_scan_time_by_arrangement_of_plots(const struct bench *bench);
+void bench_arrangements(const struct bench *bench);
 
 #endif

@@ -62,8 +62,7 @@ static void fill_longest_track_list(struct rho_message_track_list *list)
 
 /* ---- Calls ---- */
 
-static enum rho_status encode_decode_or_validate_plots(enum action action, uint8_t *bytes,
-                                                       size_t *size)
+static enum rho_status run_codec_on_plots(enum action action, uint8_t *bytes, size_t *size)
 {
     static struct rho_message_plot_scan scan;
 
@@ -76,8 +75,7 @@ static enum rho_status encode_decode_or_validate_plots(enum action action, uint8
                               : rho_message_plot_scan_validate(&scan, NULL);
 }
 
-static enum rho_status encode_decode_or_validate_tracks(enum action action, uint8_t *bytes,
-                                                        size_t *size)
+static enum rho_status run_codec_on_tracks(enum action action, uint8_t *bytes, size_t *size)
 {
     static struct rho_message_track_list list;
 
@@ -93,8 +91,8 @@ static enum rho_status encode_decode_or_validate_tracks(enum action action, uint
 static const struct message {
     const char *name, *json_name;
     enum rho_status (*run)(enum action action, uint8_t *bytes, size_t *size);
-} messages[] = {{"plot_scan_t, 34 plots", "plot_scan", encode_decode_or_validate_plots},
-                {"track_list_t, 9 tracks", "track_list", encode_decode_or_validate_tracks}};
+} messages[] = {{"plot_scan_t, 34 plots", "plot_scan", run_codec_on_plots},
+                {"track_list_t, 9 tracks", "track_list", run_codec_on_tracks}};
 
 static double fastest_call_ns(const struct message *message, enum action action, uint8_t *bytes,
                               size_t *size)

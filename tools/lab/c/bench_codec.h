@@ -5,7 +5,7 @@
 
 #include "base/text_table.h"
 #include "bench.h"
-#include "limits_held_or_missed.h"
+#include "lab_limits.h"
 
 /*
  * Adds a row `message|bytes|encode ns|decode ns|validate ns` for each full message to the table,

@@ -14,7 +14,7 @@
 #include "base/random.h"
 #include "base/text_table.h"
 #include "bench.h"
-#include "limits_held_or_missed.h"
+#include "lab_limits.h"
 #include "pipeline/pipeline.h"
 
 #define PEAKS_MAX 1024

@@ -22,7 +22,7 @@
 
 #include "base/common.h"
 #include "base/random.h"
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
 #include "rhotrack/udpm.h"
@@ -182,7 +182,7 @@ static void listen_until(struct session *session, int64_t end_ns)
     }
 }
 
-static void wait_for_node_then_send_scans_at_fixed_rate(struct session *session)
+static void send_scans_at_rate(struct session *session)
 {
     int64_t start_ns = now_ns(), give_up_ns = start_ns + READY_NS;
 
@@ -214,7 +214,7 @@ static void fork_node_and_run_session(struct session *session)
         run_node(url, parent);
     }
     session->transport = transport_open(url, TRANSPORT_SEND_AND_RECEIVE);
-    wait_for_node_then_send_scans_at_fixed_rate(session);
+    send_scans_at_rate(session);
     transport_close(session->transport);
     kill(child, SIGTERM);
     waitpid(child, NULL, 0);

@@ -12,10 +12,10 @@
 #include "base/random.h"
 #include "base/text_table.h"
 #include "bench.h"
-#include "limits_held_or_missed.h"
+#include "lab_limits.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/passive.h"
-#include "scenario_truth_to_plots.h"
+#include "scenario_plots.h"
 
 #define PI 3.141592653589793
 #define SIGMA_RAD (0.1 * PI / 180.0)
@@ -84,12 +84,12 @@ static void add_bearing_unless_full(struct recording *recording, unsigned k, siz
     }
 }
 
-static void record_simulated_bearing_frames(struct recording *recording, const struct job *job,
-                                            uint64_t seed, uint64_t run)
+static void record_bearing_frames(struct recording *recording, const struct job *job, uint64_t seed,
+                                  uint64_t run)
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
-    suggest_passive_scenario_parameters(&parameters);
+    suggest_passive_parameters(&parameters);
     parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, job->sigma_rad);
     const struct scenario_bearings of = {
         .num_sensors = job->sensors, .num_targets = job->targets, .false_mean = 1.0};
@@ -109,8 +109,7 @@ static void record_simulated_bearing_frames(struct recording *recording, const s
     simulation_free(simulation);
 }
 
-static void fill_recording_with_random_bearings(struct recording *recording, double sigma_rad,
-                                                uint64_t seed)
+static void fill_random_bearings(struct recording *recording, double sigma_rad, uint64_t seed)
 {
     struct random random = random_start(seed, 79, 0);
     *recording = (struct recording){.num_frames = RHO_MAX_PASSIVE_SCANS};
@@ -183,9 +182,9 @@ static struct figures measure_batches_of_job(struct rho_passive *passive, const 
     struct figures figures = {.push_us = INFINITY};
     for (int run = 0; run < job->batches; run++) {
         if (job->sensors > 0) {
-            record_simulated_bearing_frames(&recording, job, seed, (uint64_t)run);
+            record_bearing_frames(&recording, job, seed, (uint64_t)run);
         } else {
-            fill_recording_with_random_bearings(&recording, job->sigma_rad, seed);
+            fill_random_bearings(&recording, job->sigma_rad, seed);
         }
         fill_batch_from_recording(passive, &recording);
         double ms = fastest_search_ms(passive);

@@ -170,7 +170,7 @@ static void bench_initiate_with_clutter(const struct bench *bench, struct text_t
     simulation_free(simulation);
 }
 
-static void bench_initiator_window_by_clutter(const struct bench *bench)
+static void bench_window_by_clutter(const struct bench *bench)
 {
     static const double clutter[] = {0, 10, 100, 300};
     struct rho_initiator *initiator = must_alloc(sizeof *initiator);
@@ -265,13 +265,10 @@ static void bench_track(const struct bench *bench)
 static const struct {
     const char *name;
     void (*run)(const struct bench *bench);
-} benches[] = {{"kalman", bench_kalman},
-               {"initiate", bench_initiator_window_by_clutter},
-               {"track", bench_track},
-               {"hough", bench_hough},
-               {"passive", bench_passive},
-               {"node", bench_node},
-               {"work", bench_scan_time_by_arrangement_of_plots}};
+} benches[] = {{"kalman", bench_kalman},    {"initiate", bench_window_by_clutter},
+               {"track", bench_track},      {"hough", bench_hough},
+               {"passive", bench_passive},  {"node", bench_node},
+               {"work", bench_arrangements}};
 
 #define NUM_BENCHES (sizeof benches / sizeof benches[0])
 

@@ -33,6 +33,6 @@ int main(int argc, char **argv)
     cJSON_InitHooks(&hooks);
     command = must_find_lab_command(argc > 1 ? argv[1] : "");
     command_line_read(&line, command, argc - 1, argv + 1);
-    command_line_set_origin_and_places(&line);
+    command_line_set_places(&line);
     return command->run(&line);
 }

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "base/common.h"
-#include "scenario_truth_to_plots.h"
+#include "scenario_plots.h"
 
 #define PI 3.141592653589793
 #define START_FAR_M 78000.0
@@ -75,7 +75,7 @@ static struct scenario_plan plan_passive(const struct scenario_bearings *of,
     return plan;
 }
 
-void suggest_passive_scenario_parameters(struct parameters *parameters)
+void suggest_passive_parameters(struct parameters *parameters)
 {
     const struct {
         enum parameter_id id;

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/common.h"
-#include "scenario_truth_to_plots.h"
+#include "scenario_plots.h"
 
 #define DEG_RAD 0.017453292519943295
 #define PAIR_MPS 250.0

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "scenario_truth_to_plots.h"
+#include "scenario_plots.h"
 
 /* ---- names and customary parameters of scenarios --------------------------------------------- */
 
@@ -145,7 +145,7 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
     plan.sigma_m = plan.noise_m = parameters->value[PARAMETER_SIGMA_M];
     plan.merge_m = parameters->value[PARAMETER_MERGE_M];
     plan.box = plan_box_of_parameters(parameters);
-    plan_grow_clutter_box_unless_area_is_set(&plan, parameters);
+    plan_grow_clutter_box(&plan, parameters);
     plan.clutter_mean = plan_clutter_mean(parameters, &plan.box);
     struct simulation *simulation = plan_simulate(&plan, &random);
     plan_free(&plan);

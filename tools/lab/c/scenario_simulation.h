@@ -4,7 +4,7 @@
  * name, parameters and a seed. The command `simulate` uses scenes (scene/scene.h) instead.
  *
  * Scenarios: crossing, parallel, crossing-angle, traffic, formation; the passive ones are in
- * scenario_truth_to_plots.h. The same seed gives the same data on every machine.
+ * scenario_plots.h. The same seed gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_SIMULATION_H
 #define RHOTRACK_TOOL_SCENARIO_SIMULATION_H

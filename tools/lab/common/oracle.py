@@ -11,7 +11,7 @@ errors.
 """
 import numpy as np
 
-from common.read_truth_plots_tracks import MORE, sensor_of, tracks_by_scan
+from common.scene_files import MORE, sensor_of, tracks_by_scan
 
 START_HITS, LOOKS, DROP_MISSES = 3, 5, 5
 

@@ -97,8 +97,8 @@ def write(path, results, alarms, longs, options, columns, rows_of, consistency):
             alarm_table(alarms)
         ]
     if longs:
-        from parts import endurance_hour_by_hour
-        hours = html.escape(endurance_hour_by_hour.table(longs))
+        from parts import endurance_hours
+        hours = html.escape(endurance_hours.table(longs))
         body += ["<h2>Hour by hour</h2>", f"<pre>{hours}</pre>"]
     text = (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'

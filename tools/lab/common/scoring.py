@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from common import read_truth_plots_tracks
+from common import scene_files
 
 GATE_SHARE = 0.0125  # of the largest range: a track so near to a target may be that target's
 # of the slowest sensor: for so long a track may stay behind where its target left or died
@@ -62,7 +62,7 @@ def consistency(off_m, off_mps, more, motions):
     are right, and shares inside the ellipse of 95 %. Keys of a motion end with its name."""
     place, velocity = ratio(off_m, more[:, 2:5]), ratio(off_mps, more[:, 5:8])
     found = {}
-    for motion, name in [(None, ""), *enumerate(read_truth_plots_tracks.MOTIONS)]:
+    for motion, name in [(None, ""), *enumerate(scene_files.MOTIONS)]:
         rows = np.full(len(off_m), True) if motion is None else motions == motion
         end = name and "_" + name
         found["pairs" + end] = float(rows.sum())
@@ -79,13 +79,13 @@ def pairs_of(truth, tracks, paired):
     """What `consistency` asks of pairs (scan, target, index of the track in the scan)."""
     scan, target, _ = np.array(paired, dtype=int).reshape(-1, 3).T
     places = np.array([tracks.place_m[k][col] for k, _, col in paired]).reshape(-1, 2)
-    more = np.full((len(paired), len(read_truth_plots_tracks.MORE)), np.nan)
+    more = np.full((len(paired), len(scene_files.MORE)), np.nan)
     if tracks.more is not None and paired:
         more = np.array([tracks.more[k][col] for k, _, col in paired])
     velocity = np.full(
         (len(paired), 2), np.nan) if truth.velocity_mps is None else truth.velocity_mps[scan,
                                                                                         target]
-    motions = np.where(more[:, -1] == 1, read_truth_plots_tracks.COASTING,
+    motions = np.where(more[:, -1] == 1, scene_files.COASTING,
                        truth.motions()[scan, target])
     return places - truth.place_m[scan, target], more[:, :2] - velocity, more, motions
 

@@ -9,7 +9,7 @@ import tempfile
 
 from scipy.stats import chi2
 
-from common import read_truth_plots_tracks
+from common import scene_files
 
 SCENES = ["uniform", "rain", "strobe"]
 LEARNING_S = 600.0
@@ -47,7 +47,7 @@ def run(job):
             "track", folder / "plots.csv", "--config", folder / "scenario.ini", *sets, "-o",
             folder / "tracks.csv"
         ])
-        begun = read_truth_plots_tracks.first_confirmed(folder / "tracks.csv")
+        begun = scene_files.first_confirmed(folder / "tracks.csv")
         return job["name"], sum(time_us >= LEARNING_S * 1e6 for time_us in begun.values())
 
 
@@ -65,7 +65,7 @@ def measure(options, run_program):
     names = options.scene or SCENES
     work = []
     for name in names:
-        path = read_truth_plots_tracks.path_of(options.scenes, name)
+        path = scene_files.path_of(options.scenes, name)
         scene = without_targets(json.loads(path.read_text(encoding="utf-8")),
                                 LEARNING_S + 3600 * hours_each)
         work += [{

@@ -9,9 +9,9 @@ from common import experiment  # before numpy, whose threads it limits
 import numpy as np
 
 import rhotrack
-from parts.passive_scenes_and_references import Setting, fit, predict, update
+from parts.passive_scenes import Setting, fit, predict, update
 from common.experiment import ratio_of, root_of
-from parts.passive_runs_and_figure_texts import facts_of, judge_rate, runs_of, text_of
+from parts.passive_runs import facts_of, judge_rate, runs_of, text_of
 
 NEAR_M, NEAR_SIGMAS = 1000, 4  # a track this near to a target is the target's
 RMS_RATIO_MAX = 1.08

@@ -7,8 +7,8 @@ import itertools
 import numpy as np
 
 import rhotrack
-from parts.passive_scenes_and_references import PLACES_M, Scene, Setting
-from parts.passive_runs_and_figure_texts import RULES
+from parts.passive_scenes import PLACES_M, Scene, Setting
+from parts.passive_runs import RULES
 
 RANGE_MAX_M = 100e3
 NEAR_RAD, NEAR_M = np.radians(6), 3000  # a line this near to a target's is the target's

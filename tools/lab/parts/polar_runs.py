@@ -15,7 +15,7 @@ import numpy as np
 from common import experiment
 from parts import polar_references
 import rhotrack
-from common import simulate_scene_in_memory
+from common import simulate_scene
 
 TURN_S, SIGMA_RANGE_RATE_MPS = 4.0, 1.0
 WINDOW, MIN_SCANS, PD = 7, 5, 0.99  # turns of a search, hits in them, and what is assumed, and true
@@ -37,7 +37,7 @@ class Sky:
 
     def __init__(self, run, clutter):
         self.settings, self.sensor = run.settings, run.sensors[1]
-        self.is_plot = simulate_scene_in_memory.has_plot(run.plots)
+        self.is_plot = simulate_scene.has_plot(run.plots)
         self.rows = run.plots.copy()
         self.rows["t_s"][~self.is_plot] -= TURN_S
         self.plots = self.rows[self.is_plot]
@@ -76,7 +76,7 @@ class Sky:
             more["range_rate_mps"] = rate_mps - case.span_mps * np.round(
                 rate_mps / case.span_mps) if case.span_mps else rate_mps
         polar = () if case.is_isotropic else ("range_m", "azimuth_rad")
-        return simulate_scene_in_memory.with_fields(
+        return simulate_scene.with_fields(
             self.rows, ("t_s", "sensor_id", "scan", *polar), **more)
 
 

@@ -16,7 +16,7 @@ class Error(ValueError):
 
 
 def must(result: Any) -> Any:
-    """The result of a call of readers_and_pipeline_for_python.h; where it failed, an exception with
+    """The result of a call of python_interface.h; where it failed, an exception with
     its message."""
     if result:
         return result

@@ -111,7 +111,7 @@ class Imm:
         seen, match = _Plot(plot, settings), ffi.new("struct rho_imm_match *")
         opened = ffi.new("struct rho_imm_plot *")
         lib.rho_imm_prepare_plot(opened, seen.plot, seen.measures, seen.sensor)
-        if not lib.rho_imm_predict_rates_and_score_plot(self.struct, opened, match):
+        if not lib.rho_imm_score_plot(self.struct, opened, match):
             return None
         must_succeed(lib.rho_imm_update(self.struct, self.model, opened, match), "plot")
         return match.log_likelihood
@@ -167,7 +167,7 @@ class InputEstimation:
     def update(self, element: int, value: float, variance: float) -> None:
         """Element 0 .. 5 of the state was measured."""
         must_succeed(
-            lib.rho_input_update_filter_by_element(self.struct, self.config, element, value,
+            lib.rho_input_update_element(self.struct, self.config, element, value,
                                                    variance),
             "element, value or variance")
 
@@ -180,13 +180,13 @@ class InputEstimation:
 
     def decide(self) -> None:
         """Tests each axis for an input; once a scan, after its updates."""
-        lib.rho_input_test_and_end_inputs(self.struct, self.config)
+        lib.rho_input_decide(self.struct, self.config)
 
     @property
     def estimate(self) -> Kalman:
         """The corrected estimate."""
         estimate = Kalman()
-        lib.rho_input_get_corrected_estimate(self.struct, estimate.struct)
+        lib.rho_input_estimate(self.struct, estimate.struct)
         return estimate
 
     @property
@@ -223,7 +223,7 @@ class HoughGate:
         if velocities.ndim != 2 or velocities.shape[1] != 3:
             raise Error(f"velocities_mps: (n, 3) is wanted, not {velocities.shape}")
         return np.array([
-            lib.rho_gate_hough_velocity_distance_from_lines_mps(self.struct,
+            lib.rho_gate_hough_distance_mps(self.struct,
                                                                 pointer_to(one, "float *"))
             for one in velocities], "f4")
 
@@ -251,7 +251,7 @@ def ghosts(bearings_a_rad: Any, bearings_b_rad: Any, place_a_m: tuple[float, flo
     must_succeed(lib.rho_ghost_fill(matrix, base, pointer_to(a, "float *"), len(a),
                                     pointer_to(b, "float *"), len(b), range_max_m),
                  "bearings_a_rad, bearings_b_rad or range_max_m")
-    lib.rho_ghost_prune_and_count_removed(matrix, rules[prune])
+    lib.rho_ghost_prune(matrix, rules[prune])
     side, shape = lib.RHO_MAX_BEARINGS, np.s_[:len(a), :len(b)]
     delta = array_of(matrix.delta_rad, side * side, "f4").reshape(side, side)[shape]
     reason = REASONS[array_of(matrix.reason, side * side, "u1").reshape(side, side)[shape]]

@@ -24,8 +24,6 @@ static char *volatile unfinished[OUTPUTS_MAX];
 static volatile pid_t unfinished_owner;
 static volatile sig_atomic_t progress_visible;
 
-/* ---- How the program ends ---- */
-
 static void remove_unfinished_outputs(void)
 {
     if (unfinished_owner != getpid()) {
@@ -83,8 +81,6 @@ void fail(int exit_code, const char *format, ...)
     exit(exit_code);
 }
 
-/* ---- Memory ---- */
-
 static void *memory_or_fail(void *memory, size_t bytes)
 {
     if (!memory) {
@@ -124,8 +120,6 @@ char *must_copy_text(const char *text)
     return memcpy(must_alloc(bytes), text, bytes);
 }
 
-/* ---- Output files ---- */
-
 static void remember_unfinished_output(char *path)
 {
     if (!unfinished_owner) {
@@ -141,15 +135,6 @@ static void remember_unfinished_output(char *path)
     }
     unlink(path);
     fail(EXIT_RUNTIME, "more than %d output files are open", OUTPUTS_MAX);
-}
-
-static void forget_unfinished_output(const char *path)
-{
-    for (int i = 0; i < OUTPUTS_MAX; i++) {
-        if (unfinished[i] == path) {
-            unfinished[i] = NULL;
-        }
-    }
 }
 
 static FILE *open_output_directly(const char *path)
@@ -271,14 +256,16 @@ void output_close(struct output *output)
         if (rename(output->temporary_path, output->path)) {
             fail(EXIT_RUNTIME, "%s: %s", name, strerror(errno));
         }
-        forget_unfinished_output(output->temporary_path);
+        for (int i = 0; i < OUTPUTS_MAX; i++) {
+            if (unfinished[i] == output->temporary_path) {
+                unfinished[i] = NULL;
+            }
+        }
     }
     free(output->temporary_path);
     free(output->path);
     *output = (struct output){NULL, NULL, NULL};
 }
-
-/* ---- Folders and names ---- */
 
 void make_folder_with_parents(const char *path)
 {
@@ -342,8 +329,6 @@ char *path_join(const char *folder, const char *name)
     snprintf(path, bytes, "%s%s%s", folder, slash, name);
     return path;
 }
-
-/* ---- Numbers and JSON ---- */
 
 const char *shortest_float_text(float value, char text[FLOAT_TEXT_BYTES])
 {
@@ -412,8 +397,6 @@ void json_print_and_delete(struct cJSON *object)
     cJSON_free(text);
     cJSON_Delete(object);
 }
-
-/* ---- Time and progress ---- */
 
 void print_if_only_last_taken(uint64_t taken, uint64_t total, const char *what)
 {

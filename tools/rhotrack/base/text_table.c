@@ -130,8 +130,7 @@ void text_table_free(struct text_table *table)
     table->cells = NULL;
 }
 
-const char *text_table_number_or_dash_for_nan(char text[TEXT_TABLE_NUMBER], int digits,
-                                              double value)
+const char *text_table_number_or_dash(char text[TEXT_TABLE_NUMBER], int digits, double value)
 {
     snprintf(text, TEXT_TABLE_NUMBER, "%.*f", digits, value);
     return isnan(value) ? "-" : text;

@@ -30,8 +30,7 @@ void text_table_print(const struct text_table *table, FILE *out);
 
 /* Formats a number for a cell; "-" for NAN. */
 #define TEXT_TABLE_NUMBER 48
-const char *text_table_number_or_dash_for_nan(char text[TEXT_TABLE_NUMBER], int digits,
-                                              double value);
+const char *text_table_number_or_dash(char text[TEXT_TABLE_NUMBER], int digits, double value);
 
 void text_table_free(struct text_table *table);
 

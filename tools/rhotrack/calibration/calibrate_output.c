@@ -20,7 +20,7 @@ static const struct {
      "fewer than four segments of tracks, or most are no parabolas"},
     {"azimuth noise", "rad", "sigma_azimuth_rad",
      "fewer than four segments of tracks, or most are no parabolas"},
-    {"pd", "", "pd", "tracks were looked at fewer than 100 times"},
+    {"pd", "", "pd", "gate best looked at tracks fewer than 50 times"},
     {"clutter a turn", "plots", "clutter_plots", "fewer than six turns"},
     {"turn", "s", "turn_s", "fewer than seven turns"},
     {"fastest", "m/s", "fastest_mps", "nothing was tracked for 20 plots that surely moves"},

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "calibration/calibrate_noise_and_pd.h"
+#include "calibration/calibrate_noise.h"
 
 /* Whether the range noise or the pd of any radar is known. */
 bool calibrate_knows_noise_or_pd(const struct calibrate_result *result);

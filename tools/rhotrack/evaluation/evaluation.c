@@ -8,8 +8,6 @@
 #include "evaluation/evaluation_state.h"
 #include "evaluation/gospa.h"
 
-/* ---- identities ---- */
-
 /* Index of the target with this id in e->targets; a new target starts its life at time_us. */
 static size_t find_or_add_target(struct evaluation *e, int32_t id, int64_t time_us)
 {
@@ -38,8 +36,6 @@ static size_t find_or_add_track(struct evaluation *e, int32_t id)
     }
     return number;
 }
-
-/* ---- one pair ---- */
 
 static double norm(double x, double y, double z)
 {
@@ -80,10 +76,8 @@ static struct pair_error error_of_pair(size_t target_index, enum evaluation_moti
  * Classifies the target as straight or turning by the change of its velocity since its previous
  * time, and stores its time and velocity for the next call.
  */
-static void classify_target_straight_or_turning(const struct evaluation *e,
-                                                struct target_life *life,
-                                                const struct evaluation_point *target,
-                                                int64_t time_us)
+static void classify_target(const struct evaluation *e, struct target_life *life,
+                            const struct evaluation_point *target, int64_t time_us)
 {
     double *last = life->velocity_mps, passed_s = (double)(time_us - life->last_us) * 1e-6;
     double change_mps =
@@ -118,8 +112,6 @@ static void record_paired_track(struct target_life *life, size_t track,
     scan->fragments += is_fragment;
     life->track = track;
 }
-
-/* ---- one time ---- */
 
 /*
  * Sums of squared velocity errors and of NEES over the pairs at one time, and how many pairs have a
@@ -183,7 +175,7 @@ static void record_targets_at_time(struct evaluation *e, const struct evaluation
         size_t number = find_or_add_target(e, targets[i].id, scan->time_us);
         struct target_life *life = &e->targets[number];
         life->scans++;
-        classify_target_straight_or_turning(e, life, &targets[i], scan->time_us);
+        classify_target(e, life, &targets[i], scan->time_us);
         if (track_of[i] >= 0) {
             const struct evaluation_point *track = &tracks[track_of[i]];
             struct pair_error error = error_of_pair(number, life->motion, &targets[i], track);
@@ -229,8 +221,6 @@ void evaluation_add_time(struct evaluation *e, int64_t time_us,
     e->scans[e->num_scans++] = scan;
     free(track_of);
 }
-
-/* ---- begin and end ---- */
 
 struct evaluation *evaluation_start(double cutoff_m)
 {

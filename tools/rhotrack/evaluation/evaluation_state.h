@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "base/identity_to_index_map.h"
+#include "base/identity_map.h"
 #include "evaluation/evaluation.h"
 
 #define NO_TRACK SIZE_MAX

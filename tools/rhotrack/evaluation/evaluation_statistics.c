@@ -19,8 +19,6 @@ double evaluation_mean_or_nan(double sum, size_t count)
     return count == 0 ? NAN : sum / (double)count;
 }
 
-/* ---- errors of pairs ---- */
-
 static int by_value(const void *a, const void *b)
 {
     double one = *(const double *)a, other = *(const double *)b;
@@ -104,8 +102,6 @@ static struct evaluation_errors errors_of_pairs(const struct pair_error *pairs, 
     return errors;
 }
 
-/* ---- all in all ---- */
-
 static void fill_figures_over_all_targets(const struct evaluation *e,
                                           struct evaluation_result *result)
 {
@@ -129,16 +125,6 @@ static void fill_figures_over_all_targets(const struct evaluation *e,
         points_after > 0.0 ? (double)e->num_pairs / points_after : NAN;
     result->delay_scans = evaluation_mean_or_nan(delay_scans, result->targets_found);
     result->delay_s = evaluation_mean_or_nan(delay_s, result->targets_found);
-}
-
-static void fill_track_figures(const struct evaluation *e, struct evaluation_result *result)
-{
-    double hours = (double)(result->last_us - result->first_us) / 3.6e9;
-    for (size_t i = 0; i < e->track_ids.count; i++) {
-        result->false_tracks += 2 * e->tracks[i].paired < e->tracks[i].scans;
-    }
-    result->tracks = e->track_ids.count;
-    result->false_per_hour = hours > 0.0 ? (double)result->false_tracks / hours : NAN;
 }
 
 static void fill_scan_figures(const struct evaluation *e, struct evaluation_result *result)
@@ -182,13 +168,16 @@ struct evaluation_result evaluation_result(const struct evaluation *e)
     struct evaluation_result result = {0};
     fill_scan_figures(e, &result);
     fill_figures_over_all_targets(e, &result);
-    fill_track_figures(e, &result);
+    double hours = (double)(result.last_us - result.first_us) / 3.6e9;
+    for (size_t i = 0; i < e->track_ids.count; i++) {
+        result.false_tracks += 2 * e->tracks[i].paired < e->tracks[i].scans;
+    }
+    result.tracks = e->track_ids.count;
+    result.false_per_hour = hours > 0.0 ? (double)result.false_tracks / hours : NAN;
     result.errors = errors_of_pairs(e->pairs, e->num_pairs);
     fill_errors_by_motion(e, &result);
     return result;
 }
-
-/* ---- by target ---- */
 
 static int by_id(const void *a, const void *b)
 {

@@ -17,7 +17,7 @@ struct comparison {
     struct gospa result;
 };
 
-static void record_assigned_pair_within_cutoff(struct comparison *c, size_t target, size_t track)
+static void record_assigned_pair(struct comparison *c, size_t target, size_t track)
 {
     double squared_m2 = gospa_distance2(&c->targets[target], &c->tracks[track]);
     if (squared_m2 >= c->cutoff2_m2) {
@@ -63,9 +63,8 @@ static void pair_within_cluster(struct comparison *c, const struct gospa_cluster
     size_t *column_of = must_calloc(rows, sizeof *column_of);
     hungarian_assign(rows, columns, cost, column_of);
     for (size_t row = 0; row < rows; row++) {
-        record_assigned_pair_within_cutoff(
-            c, cluster->targets[rows_are_targets ? row : column_of[row]],
-            cluster->tracks[rows_are_targets ? column_of[row] : row]);
+        record_assigned_pair(c, cluster->targets[rows_are_targets ? row : column_of[row]],
+                             cluster->tracks[rows_are_targets ? column_of[row] : row]);
     }
     free(cost);
     free(column_of);

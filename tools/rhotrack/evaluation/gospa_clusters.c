@@ -12,8 +12,6 @@ double gospa_distance2(const struct gospa_place *a, const struct gospa_place *b)
     return dx * dx + dy * dy + dz * dz;
 }
 
-/* ---- clusters as trees: a forest over the targets, then the tracks ---- */
-
 /* Root of the tree that the node belongs to; shortens the path to it (union-find). */
 static size_t root_of(size_t *parent, size_t node)
 {
@@ -33,8 +31,6 @@ static void join_trees(size_t *parent, size_t a, size_t b)
         parent[root_a] = root_b;
     }
 }
-
-/* ---- near pairs, by a sweep along x ---- */
 
 struct sorted {
     double x_m;
@@ -78,8 +74,6 @@ static void join_near_pairs(size_t *parent, const struct gospa_place *targets, s
     free(target);
     free(track);
 }
-
-/* ---- from the forest to lists ---- */
 
 /*
  * Offset at which the members of each root's cluster begin in one list of all nodes; the last entry

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/output/initiated_tracks_output.h"
-#include "io/scans/plot_scan_reader.h"
-#include "io/scans/scans_to_hough_arrays.h"
-#include "io/turns/sectors_merged_to_turns.h"
+#include "io/output/initiated_output.h"
+#include "io/scans/hough_batch.h"
+#include "io/scans/plot_reader.h"
+#include "io/turns/merged_sectors.h"
 #include "pipeline/pipeline.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)
@@ -23,24 +23,19 @@ struct hough_search {
     int64_t wall_us;
 };
 
-/* ---- The batch ---- */
-
-static void read_last_revolutions_into_batch(struct hough_batch *batch,
-                                             const struct command_line *line)
+static void read_last_revolutions(struct hough_batch *batch, const struct command_line *line)
 {
-    struct plot_scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
-                                                            &line->parameters, line->keep_going);
+    struct plot_reader *reader =
+        plot_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     struct revolutions revolutions =
         revolutions_read_last(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
 
     *batch = hough_batch_from_revolutions(&revolutions);
     revolutions_free(&revolutions);
-    plot_scan_reader_report_skipped(reader);
-    hough_batch_report_plots_beyond_range(batch);
-    plot_scan_reader_close(reader);
+    plot_reader_report_skipped(reader);
+    hough_batch_report_beyond(batch);
+    plot_reader_close(reader);
 }
-
-/* ---- The search ---- */
 
 static void warn_of_dropped_votes(const struct rho_hough_result *result)
 {
@@ -102,8 +97,6 @@ static void search_batch_for_peaks(struct hough_search *search, const struct com
     warn_of_dropped_votes(&search->result);
 }
 
-/* ---- What it found ---- */
-
 static double peak_votes(const struct rho_accumulator_peak *peak)
 {
     return round(1e6 * peak->votes / RHO_HOUGH_VOTE) / 1e6;
@@ -133,26 +126,17 @@ static struct initiated fit_track_of_peak(const struct hough_search *search, uin
 
 static void write_found_tracks(const struct hough_search *search, const char *path)
 {
-    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
     struct progress progress = progress_start("tracks", search->result.num_peaks);
 
     for (uint32_t i = 0; i < search->result.num_peaks; i++) {
         struct initiated row = fit_track_of_peak(search, i);
 
-        initiated_tracks_output_add_row(found, &row);
+        initiated_output_add_row(found, &row);
         progress_show(&progress, i + 1);
     }
     progress_end(&progress);
-    initiated_tracks_output_close(found);
-}
-
-static void add_peak_votes_json(cJSON *object, const struct hough_search *search)
-{
-    cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
-
-    for (uint32_t i = 0; i < search->result.num_peaks; i++) {
-        cJSON_AddItemToArray(list, cJSON_CreateNumber(peak_votes(&search->peaks[i])));
-    }
+    initiated_output_close(found);
 }
 
 static void print_search_json(const struct hough_search *search, enum method method)
@@ -170,7 +154,11 @@ static void print_search_json(const struct hough_search *search, enum method met
     cJSON_AddNumberToObject(object, "pairs", result->pairs);
     cJSON_AddNumberToObject(object, "candidates", result->candidates);
     cJSON_AddNumberToObject(object, "votes", result->votes);
-    add_peak_votes_json(object, search);
+    cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
+
+    for (uint32_t i = 0; i < search->result.num_peaks; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(peak_votes(&search->peaks[i])));
+    }
     cJSON_AddNumberToObject(object, "tracks", result->num_peaks);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *search->hough);
     cJSON_AddNumberToObject(object, "wall_us", (double)search->wall_us);
@@ -188,7 +176,7 @@ void initiate_hough(const struct command_line *line, enum method method)
     struct hough_search search = {.hough = must_alloc(sizeof *search.hough),
                                   .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
 
-    read_last_revolutions_into_batch(&search.batch, line);
+    read_last_revolutions(&search.batch, line);
     search_batch_for_peaks(&search, line, method);
     if (line->output || !line->json) {
         write_found_tracks(&search, line->output);

@@ -3,8 +3,8 @@
 #ifndef RHOTRACK_TOOL_INITIATE_HOUGH_H
 #define RHOTRACK_TOOL_INITIATE_HOUGH_H
 
-#include "commands_and_parsed_line.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "commands.h"
+#include "settings/initiation_methods.h"
 
 void initiate_hough(const struct command_line *line, enum method method);
 

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "initiation/search_last_bearing_frames.h"
-#include "io/output/initiated_tracks_output.h"
+#include "initiation/last_bearings.h"
+#include "io/output/initiated_output.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/angle.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 static enum rho_status push_passive_frame(void *object, const struct rho_frame *frame,
                                           uint8_t *fates)
@@ -22,11 +22,9 @@ static enum rho_status search_passive_batch(void *object)
     return rho_passive_search(object);
 }
 
-/* ---- What it found ---- */
-
 static void write_found_tracks(const struct rho_passive *passive, int64_t time_us, const char *path)
 {
-    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *track = &passive->tracks[i];
@@ -44,13 +42,13 @@ static void write_found_tracks(const struct rho_passive *passive, int64_t time_u
                                 .sensor_pairs = rho_passive_sensor_pairs(track),
                                 .score = (double)((float)track->score_mnat / 1000.0f)};
 
-        initiated_tracks_output_add_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
-    initiated_tracks_output_close(found);
+    initiated_output_close(found);
 }
 
 /* Adds the number of bearings of each track, in descending order, and their sum. */
-static void add_sorted_track_hit_counts_json(cJSON *object, const struct rho_passive *passive)
+static void add_track_hits_json(cJSON *object, const struct rho_passive *passive)
 {
     int hits[RHO_MAX_PASSIVE_TRACKS], sum = 0;
 
@@ -63,15 +61,6 @@ static void add_sorted_track_hit_counts_json(cJSON *object, const struct rho_pas
                           sort_descending_into_json_list(hits, passive->num_tracks));
 }
 
-static void add_score_margins_without_track_json(cJSON *object, const struct rho_passive *passive)
-{
-    cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
-
-    for (int i = 0; i < passive->num_tracks; i++) {
-        cJSON_AddItemToArray(list, cJSON_CreateNumber(1e-3 * passive->tracks[i].margin_mnat));
-    }
-}
-
 static void print_search_json(const struct rho_passive *passive, const struct last_bearings *batch)
 {
     const struct rho_passive_work *work = &passive->work;
@@ -82,9 +71,14 @@ static void print_search_json(const struct rho_passive *passive, const struct la
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_sorted_track_hit_counts_json(object, passive);
+    add_track_hits_json(object, passive);
     cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
-    add_score_margins_without_track_json(object, passive);
+    /* Score margins of candidates, without the tracks. */
+    cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
+
+    for (int i = 0; i < passive->num_tracks; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(1e-3 * passive->tracks[i].margin_mnat));
+    }
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
     cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);
@@ -102,8 +96,7 @@ void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader =
-        last_bearings_open_reader_and_note_distance(line, &parameters);
+    struct bearing_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_config config = method_passive_config(&parameters);
     struct bearings_search with = {passive, &passive->batch, push_passive_frame,
                                    search_passive_batch};

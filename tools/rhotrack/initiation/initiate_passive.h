@@ -5,7 +5,7 @@
 #ifndef RHOTRACK_TOOL_INITIATE_PASSIVE_H
 #define RHOTRACK_TOOL_INITIATE_PASSIVE_H
 
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 
 void initiate_passive(const struct command_line *line);
 

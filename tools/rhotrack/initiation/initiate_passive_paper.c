@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "initiation/search_last_bearing_frames.h"
-#include "io/output/initiated_tracks_output.h"
+#include "initiation/last_bearings.h"
+#include "io/output/initiated_output.h"
 #include "pipeline/pipeline.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 static enum rho_status push_paper_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
@@ -20,12 +20,10 @@ static enum rho_status search_paper_batch(void *object)
     return rho_passive_paper_search(object);
 }
 
-/* ---- What it found ---- */
-
 static void write_found_tracks(const struct rho_passive_paper *paper, int64_t time_us,
                                const char *path)
 {
-    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
     for (unsigned i = 0; i < paper->num_lines; i++) {
         const struct rho_passive_paper_line *line = &paper->lines[i];
@@ -43,21 +41,9 @@ static void write_found_tracks(const struct rho_passive_paper *paper, int64_t ti
                                     paper->batch.num_sensors * (paper->batch.num_sensors - 1u) / 2u,
                                 .score = line->votes};
 
-        initiated_tracks_output_add_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
-    initiated_tracks_output_close(found);
-}
-
-static void add_line_votes_json(cJSON *object, const struct rho_passive_paper *paper)
-{
-    int votes[RHO_MAX_PASSIVE_LINES];
-
-    for (int i = 0; i < paper->num_lines; i++) {
-        votes[i] = paper->lines[i].votes;
-    }
-    cJSON_AddNumberToObject(object, "votes", paper->work.votes);
-    cJSON_AddItemToObject(object, "peak_votes",
-                          sort_descending_into_json_list(votes, paper->num_lines));
+    initiated_output_close(found);
 }
 
 static void print_search_json(const struct rho_passive_paper *paper,
@@ -71,7 +57,14 @@ static void print_search_json(const struct rho_passive_paper *paper,
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_line_votes_json(object, paper);
+    int votes[RHO_MAX_PASSIVE_LINES];
+
+    for (int i = 0; i < paper->num_lines; i++) {
+        votes[i] = paper->lines[i].votes;
+    }
+    cJSON_AddNumberToObject(object, "votes", paper->work.votes);
+    cJSON_AddItemToObject(object, "peak_votes",
+                          sort_descending_into_json_list(votes, paper->num_lines));
     cJSON_AddNumberToObject(object, "tracks", paper->num_lines);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *paper);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
@@ -102,8 +95,7 @@ void initiate_passive_paper(const struct command_line *line)
 {
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader =
-        last_bearings_open_reader_and_note_distance(line, &parameters);
+    struct bearing_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
     struct bearings_search with = {paper, &paper->batch, push_paper_frame, search_paper_batch};
 

@@ -3,7 +3,7 @@
 #ifndef RHOTRACK_TOOL_INITIATE_PASSIVE_PAPER_H
 #define RHOTRACK_TOOL_INITIATE_PASSIVE_PAPER_H
 
-#include "commands_and_parsed_line.h"
+#include "commands.h"
 
 void initiate_passive_paper(const struct command_line *line);
 

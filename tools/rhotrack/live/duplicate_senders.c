@@ -42,7 +42,7 @@ static bool parse_sensor_id(const char *text, int16_t *sensor_id)
     return id >= INT16_MIN && id <= INT16_MAX;
 }
 
-bool duplicate_senders_sensor_id_of_channel(const char *channel, int16_t *sensor_id)
+bool duplicate_senders_sensor_id(const char *channel, int16_t *sensor_id)
 {
     static const char *const beginnings[] = {RHO_MESSAGE_POLAR_SCAN_CHANNEL,
                                              RHO_MESSAGE_PLOT_SCAN_CHANNEL,
@@ -155,7 +155,7 @@ void duplicate_senders_note_message(struct duplicate_senders *senders,
         senders->lines = 0;
     }
     to = senders->lines < SENDERS_LINES ? to : NULL;
-    if (duplicate_senders_sensor_id_of_channel(message->channel, &sensor_id)) {
+    if (duplicate_senders_sensor_id(message->channel, &sensor_id)) {
         note_sensor_message(senders, message, now_us, to);
     } else if (!message->sender.is_own &&
                strcmp(message->channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {

@@ -40,7 +40,7 @@ struct duplicate_senders {
 };
 
 /* Parses a sensor's number from its channel's name; false where the channel is not a sensor's. */
-bool duplicate_senders_sensor_id_of_channel(const char *channel, int16_t *sensor_id);
+bool duplicate_senders_sensor_id(const char *channel, int16_t *sensor_id);
 
 /*
  * Takes note of a message's sender. Prints a line once per pair where a second sender of a sensor

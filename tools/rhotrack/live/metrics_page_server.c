@@ -90,7 +90,7 @@ static struct client *claim_client_place(struct page_server *server)
 /* ---- Answers ---- */
 
 /* Makes the page anew unless it is younger than FRESH_US; false where memory is out. */
-static bool refresh_page_if_stale_and_have_page(struct page_server *server)
+static bool have_fresh_page(struct page_server *server)
 {
     const int64_t now_us = monotonic_clock_us();
     FILE *out;
@@ -181,7 +181,7 @@ static void prepare_answer_to_request(struct page_server *server, struct client 
         prepare_refusal(server, client, "405 Method Not Allowed", "Allow: GET, HEAD\r\n");
     } else if (strcmp(words[1], server->path) != 0) {
         prepare_refusal(server, client, "404 Not Found", "");
-    } else if (!refresh_page_if_stale_and_have_page(server)) {
+    } else if (!have_fresh_page(server)) {
         prepare_refusal(server, client, "503 Service Unavailable", "");
     } else {
         server->sent++;

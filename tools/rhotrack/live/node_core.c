@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/output/clutter_map_load_and_save.h"
-#include "live/retry_scans_refused_by_assembler.h"
+#include "io/output/clutter_map_file.h"
+#include "live/refused_messages.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/command.h"
@@ -53,7 +53,7 @@ struct node_core {
     struct out_of_sequence_counts order;
     struct node_core_times step_times, latencies;
     struct rho_scan_assembler assembler;
-    struct refused_message_buffer refused;
+    struct refused_messages refused;
     /* taken: counts of refused scans that were taken later; shown: counters less `taken` */
     struct rho_scan_assembler_counters taken, shown;
     struct rho_frames frames;
@@ -141,7 +141,7 @@ enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const 
     enum pipeline_restored restored =
         pipeline_restore_snapshot(&core->pipeline, core->parameters, path);
 
-    parameters_update_assembler_sensors(core->parameters, &core->assembler);
+    parameters_update_assembler(core->parameters, &core->assembler);
     init_library_node(core, core->node.epoch); /* the restored pipeline has new objects */
     core->node.is_restored = restored == PIPELINE_RESTORED;
     return restored;
@@ -177,7 +177,7 @@ static void reset_tracking(struct node_core *core)
     memcpy(excluded, core->pipeline.tracker->excluded, sizeof excluded);
     pipeline_open(&core->pipeline, core->parameters);
     pipeline_reopen_passive_paper(&core->pipeline);
-    clutter_map_file_copy_saved_content(&core->pipeline.tracker->clutter_map, clutter);
+    clutter_map_file_copy(&core->pipeline.tracker->clutter_map, clutter);
     free(clutter);
     restore_excluded_areas(core->pipeline.tracker, excluded, num_excluded);
     core->pipeline.tracker->counters = counters;
@@ -285,7 +285,7 @@ static void apply_setting_and_answer(struct node_core *core,
     if (rho_command_set(setting, &settings, &answer) == RHO_OK) {
         if (parameters_adopt_settings(core->parameters, &settings)) {
             pipeline_reconfigure(&core->pipeline, core->parameters);
-            parameters_update_assembler_sensors(core->parameters, &core->assembler);
+            parameters_update_assembler(core->parameters, &core->assembler);
         } else {
             /* the range limits of a single sensor conflict with the setting */
             answer.status = RHO_ERROR_CONFIG;
@@ -330,7 +330,7 @@ static void refuse_command(struct node_core *core, const struct waiting_command 
 }
 
 /* Refuses queued commands received before that time, as what the operator saw has changed. */
-static void refuse_queued_commands_received_before(struct node_core *core, int64_t before_us)
+static void refuse_queued_commands(struct node_core *core, int64_t before_us)
 {
     unsigned kept = 0;
 
@@ -416,7 +416,7 @@ static void step_due_input(struct node_core *core, enum rho_node_due due)
     const int64_t start_us = monotonic_clock_us();
     struct rho_initiator *initiator =
         due == RHO_NODE_SCAN && !core->pipeline.starts
-            ? pipeline_initiator_of_sensor_or_radar_pair(&core->pipeline, &core->node.scan)
+            ? pipeline_initiator_of_sensor(&core->pipeline, &core->node.scan)
             : NULL;
     int64_t took_us;
 
@@ -445,10 +445,10 @@ static void step_all_due(struct node_core *core, int64_t now_us)
 {
     enum rho_node_due due;
 
-    refuse_queued_commands_received_before(core, now_us - COMMAND_WAIT_US);
+    refuse_queued_commands(core, now_us - COMMAND_WAIT_US);
     while ((due = rho_node_next(&core->node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
-            refuse_queued_commands_received_before(core, INT64_MAX);
+            refuse_queued_commands(core, INT64_MAX);
             reset_tracking(core);
             if (core->events.began_anew) {
                 core->events.began_anew(core->events.context);
@@ -480,25 +480,22 @@ static void report_sensor_restarts(const struct node_core *core,
  * Updates counts after the assembler took a message: keeps it if it was refused, and where it
  * completes a sensor's restart feeds the refused messages again.
  */
-static void note_message_and_retry_refused_after_restart(
-    struct node_core *core, const char *channel, const uint8_t *data, size_t size,
-    const struct rho_scan_assembler_counters *before, const struct newest_scan_positions *places,
-    int64_t now_us)
+static void note_message_sender(struct node_core *core, const char *channel, const uint8_t *data,
+                                size_t size, const struct rho_scan_assembler_counters *before,
+                                const struct newest_scan_positions *places, int64_t now_us)
 {
     const struct rho_scan_assembler_counters *after = &core->assembler.counters;
 
-    out_of_sequence_counts_note_message(&core->order, before, &core->assembler);
+    out_of_sequence_counts_note(&core->order, before, &core->assembler);
     if (after->sensor_restarts == before->sensor_restarts) {
-        refused_message_buffer_keep_or_drop_message(&core->refused, channel, data, size, before,
-                                                    after);
+        refused_messages_keep(&core->refused, channel, data, size, before, after);
     } else {
         report_sensor_restarts(core, places);
         if (core->assembler.is_restart) { /* no scan since the restart has been stepped yet */
-            refused_message_buffer_feed_channel_again(&core->refused, channel, &core->assembler,
-                                                      now_us, &core->taken);
+            refused_messages_retry(&core->refused, channel, &core->assembler, now_us, &core->taken);
         }
     }
-    core->shown = refused_message_buffer_less_undone_refusals(after, &core->taken);
+    core->shown = refused_messages_correct(after, &core->taken);
 }
 
 void node_core_take_message(struct node_core *core, const char *channel, const uint8_t *data,
@@ -515,8 +512,7 @@ void node_core_take_message(struct node_core *core, const char *channel, const u
         }
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
         if (has_room) {
-            note_message_and_retry_refused_after_restart(core, channel, data, size, &before,
-                                                         &places, now_us);
+            note_message_sender(core, channel, data, size, &before, &places, now_us);
         }
         step_all_due(core, now_us);
     }
@@ -614,8 +610,7 @@ static void send_zone_counts(const struct node_core *core)
     }
 }
 
-void node_core_send_all_status_messages(struct node_core *core,
-                                        const struct node_core_losses *losses)
+void node_core_send_status(struct node_core *core, const struct node_core_losses *losses)
 {
     const uint64_t refused = losses->datagrams_refused;
     struct rho_message_status status;
@@ -680,7 +675,7 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id)
     return false;
 }
 
-int node_core_scans_to_establish_sensor(const struct node_core *core)
+int node_core_sensor_scans_min(const struct node_core *core)
 {
     return (int)core->assembler.config.follow_scans;
 }
@@ -731,7 +726,7 @@ const struct out_of_sequence_counts *node_core_used_out_of_sequence(const struct
     return &core->order;
 }
 
-const struct node_core_times *node_core_step_duration_histogram(const struct node_core *core)
+const struct node_core_times *node_core_step_histogram(const struct node_core *core)
 {
     return &core->step_times;
 }

@@ -5,7 +5,7 @@
  *
  *     node_core_take_message(core, channel, data, size, now_us);    for each received message
  *     node_core_tick(core, now_us);        without messages, by node_core_due_us at the latest
- *     node_core_send_all_status_messages(core, &losses);                         once a second
+ *     node_core_send_status(core, &losses);                         once a second
  *
  * Messages may be any bytes: faulty ones are counted, and never end the program.
  */
@@ -17,7 +17,7 @@
 #include <stdio.h>
 
 #include "io/scans/out_of_sequence_counts.h"
-#include "pipeline/pipeline_show_ghosts_votes_hypotheses.h"
+#include "pipeline/pipeline_show.h"
 #include "pipeline/pipeline_snapshot.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
@@ -98,8 +98,7 @@ struct node_core_losses {
 };
 
 /* Publishes RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_ZONES, and RHO_LEARNED of one sensor in turn. */
-void node_core_send_all_status_messages(struct node_core *core,
-                                        const struct node_core_losses *losses);
+void node_core_send_status(struct node_core *core, const struct node_core_losses *losses);
 
 /* report of the last step */
 const struct rho_report *node_core_last_report(const struct node_core *core);
@@ -127,7 +126,7 @@ unsigned node_core_list_sensors(const struct node_core *core,
 bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 
 /* Number of consistent scans after which a sensor is believed (follow_scans). */
-int node_core_scans_to_establish_sensor(const struct node_core *core);
+int node_core_sensor_scans_min(const struct node_core *core);
 
 /* Gets the learned wall (reflectors.h) with this index; returns 0 where there is none. */
 int node_core_get_learned_wall(const struct node_core *core, unsigned place,
@@ -149,7 +148,7 @@ struct node_core_times {
 };
 
 /* Durations of steps; latencies from the reception of a scan's last message to its tracks. */
-const struct node_core_times *node_core_step_duration_histogram(const struct node_core *core);
+const struct node_core_times *node_core_step_histogram(const struct node_core *core);
 const struct node_core_times *node_core_latencies(const struct node_core *core);
 
 /* Mean and longest duration of a step since the start, us. */

@@ -114,7 +114,7 @@ static int remove_oldest_files(const char *path, unsigned files_max)
     return refused;
 }
 
-int node_log_files_stamp_and_remove_oldest(const char *path, int64_t begin_us, unsigned files_max)
+int node_log_files_rotate(const char *path, int64_t begin_us, unsigned files_max)
 {
     struct stat status;
     char *name;
@@ -134,7 +134,7 @@ int node_log_files_stamp_and_remove_oldest(const char *path, int64_t begin_us, u
     return refused == 0 && files_max > 0 ? remove_oldest_files(path, files_max) : refused;
 }
 
-int64_t node_log_files_write_time_of_one_file_us(const char *path)
+int64_t node_log_files_file_span_us(const char *path)
 {
     struct stat status;
 

@@ -34,11 +34,11 @@ bool node_log_limits_reached(const struct node_log_limits *limits, uint64_t file
  * Renames a regular file by its time stamp, to a name that is free, and removes the oldest files
  * beyond files_max. Returns the errno of a failed rename or removal; 0: none failed.
  */
-int node_log_files_stamp_and_remove_oldest(const char *path, int64_t begin_us, unsigned files_max);
+int node_log_files_rotate(const char *path, int64_t begin_us, unsigned files_max);
 
 /*
  * Time of a file's last change: stamps the log of an earlier run, whose first event is not known.
  */
-int64_t node_log_files_write_time_of_one_file_us(const char *path);
+int64_t node_log_files_file_span_us(const char *path);
 
 #endif

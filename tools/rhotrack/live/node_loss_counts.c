@@ -7,9 +7,8 @@
 #define STEP_TALLIES (NODE_TALLIES - MESSAGE_TALLIES)
 
 /* Collects losses by the network, of messages, and of operators' commands. */
-static void collect_message_and_command_tallies(const struct node_core *core,
-                                                const struct transport *transport,
-                                                struct node_loss_counts tallies[MESSAGE_TALLIES])
+static void collect_tallies(const struct node_core *core, const struct transport *transport,
+                            struct node_loss_counts tallies[MESSAGE_TALLIES])
 {
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
     const struct node_core_commands *commands = node_core_command_counts(core);
@@ -48,7 +47,7 @@ static void collect_scan_and_plot_tallies(const struct node_core *core,
     const struct rho_tracker_counters *tracker = node_core_tracker_counters(core);
     const struct rho_node_counters *own = node_core_node_counters(core);
     const struct scan_losses losses =
-        out_of_sequence_counts_to_scan_losses(node_core_used_out_of_sequence(core), assembler);
+        out_of_sequence_counts_losses(node_core_used_out_of_sequence(core), assembler);
     const struct node_loss_counts all[STEP_TALLIES] = {
         {"scans out of order", losses.out_of_order, NODE_TALLY_USUAL, false},
         {"scans late, dropped", losses.dropped, NODE_TALLY_FAULT, true},
@@ -91,6 +90,6 @@ static void collect_scan_and_plot_tallies(const struct node_core *core,
 void node_loss_counts_collect(const struct node_core *core, const struct transport *transport,
                               struct node_loss_counts tallies[NODE_TALLIES])
 {
-    collect_message_and_command_tallies(core, transport, tallies);
+    collect_tallies(core, transport, tallies);
     collect_scan_and_plot_tallies(core, tallies + MESSAGE_TALLIES);
 }

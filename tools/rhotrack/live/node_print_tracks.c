@@ -78,7 +78,7 @@ static void close_and_write_text(struct node_print *print, FILE *text)
  * True where the previous text is completely written. Else counts the new report as left out, and
  * prints so at the first one.
  */
-static bool is_last_text_written_or_count_left_out(struct node_print *print)
+static bool is_last_text_written(struct node_print *print)
 {
     write_pending_text(print, 0);
     if (is_text_pending(print)) {
@@ -115,11 +115,10 @@ struct node_print node_print_start_rows_or_table(bool is_on, bool is_live)
     return print;
 }
 
-void node_print_rows_or_mark_table_changed(struct node_print *print,
-                                           const struct rho_report *report)
+void node_print_rows(struct node_print *print, const struct rho_report *report)
 {
     print->is_changed = print->is_on;
-    if (print->is_on && !print->is_terminal && is_last_text_written_or_count_left_out(print)) {
+    if (print->is_on && !print->is_terminal && is_last_text_written(print)) {
         FILE *text = open_memory_stream_for_text(print);
 
         tracks_write_report(text, report, (struct tracks_columns){.covariance = false});
@@ -168,7 +167,7 @@ static int count_tracks_with_status(const struct rho_report *report, enum rho_tr
 static void print_bad_sensors(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
-    const unsigned count = node_sensors_list_heard_enough_scans(core, sensors);
+    const unsigned count = node_sensors_list_established(core, sensors);
 
     for (unsigned i = 0; i < count; i++) {
         if (sensors[i].is_doubted) {
@@ -184,7 +183,7 @@ static void print_node_and_table_head(const struct node_core *core, const char *
     const struct rho_report *report = node_core_last_report(core);
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
     const struct scan_losses losses =
-        out_of_sequence_counts_to_scan_losses(node_core_used_out_of_sequence(core), assembler);
+        out_of_sequence_counts_losses(node_core_used_out_of_sequence(core), assembler);
 
     fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     fprintf(out,
@@ -243,15 +242,14 @@ static void print_track_table(const struct node_core *core, const char *url, FIL
     fputs("\033[J\033[?7h", out); /* erase the rest of the screen, and wrap long lines again */
 }
 
-bool node_print_refresh_table_and_has_no_error(struct node_print *print,
-                                               const struct node_core *core, const char *url,
-                                               bool is_end)
+bool node_print_refresh(struct node_print *print, const struct node_core *core, const char *url,
+                        bool is_end)
 {
     int64_t now_us = monotonic_clock_us();
 
     if (print->is_on &&
         (is_end || (print->is_changed && (!print->is_terminal || now_us >= print->due_us)))) {
-        if (print->is_terminal && is_last_text_written_or_count_left_out(print)) {
+        if (print->is_terminal && is_last_text_written(print)) {
             FILE *text = open_memory_stream_for_text(print);
 
             print_track_table(core, url, text);

@@ -30,16 +30,14 @@ struct node_print {
 struct node_print node_print_start_rows_or_table(bool is_on, bool is_live);
 
 /* Takes the report of a step: prints its rows, or marks the table as changed. */
-void node_print_rows_or_mark_table_changed(struct node_print *print,
-                                           const struct rho_report *report);
+void node_print_rows(struct node_print *print, const struct rho_report *report);
 
 /*
  * Refreshes the table where it is due or at the end, and writes pending text. Returns false with
  * errno where standard output failed.
  */
-bool node_print_refresh_table_and_has_no_error(struct node_print *print,
-                                               const struct node_core *core, const char *url,
-                                               bool is_end);
+bool node_print_refresh(struct node_print *print, const struct node_core *core, const char *url,
+                        bool is_end);
 
 /*
  * Writes pending text until the monotonic time until_us; a report that remains counts as left out.
@@ -47,7 +45,7 @@ bool node_print_refresh_table_and_has_no_error(struct node_print *print,
 void node_print_finish(struct node_print *print, int64_t until_us);
 
 /*
- * Monotonic time at which node_print_refresh_table_and_has_no_error has work; INT64_MAX: not before
+ * Monotonic time at which node_print_refresh has work; INT64_MAX: not before
  * the next step.
  */
 int64_t node_print_due_us(const struct node_print *print);

@@ -20,14 +20,14 @@ static const char *sensor_channel_prefix(const struct rho_message_sensor *sensor
                                                       : RHO_MESSAGE_BEARING_SCAN_CHANNEL;
 }
 
-unsigned node_sensors_list_heard_enough_scans(const struct node_core *core,
-                                              struct rho_message_sensor sensors[RHO_MAX_SENSORS])
+unsigned node_sensors_list_established(const struct node_core *core,
+                                       struct rho_message_sensor sensors[RHO_MAX_SENSORS])
 {
     const unsigned count = node_core_list_sensors(core, sensors);
     unsigned kept = 0;
 
     for (unsigned i = 0; i < count; i++) {
-        if (sensors[i].scans >= node_core_scans_to_establish_sensor(core)) {
+        if (sensors[i].scans >= node_core_sensor_scans_min(core)) {
             sensors[kept++] = sensors[i];
         }
     }
@@ -56,8 +56,8 @@ static void print_silent_sensor(const struct rho_message_sensor *sensor, FILE *t
             sensor_channel_prefix(sensor), sensor->sensor_id, sensor->heard_age_us / US_PER_S);
 }
 
-static void print_if_newly_suspect_silent_or_well(const struct node_sensor *before,
-                                                  const struct rho_message_sensor *sensor, FILE *to)
+static void print_health_change(const struct node_sensor *before,
+                                const struct rho_message_sensor *sensor, FILE *to)
 {
     if (sensor->is_doubted && !before->is_doubted) {
         print_suspect_sensor(sensor, to);
@@ -84,12 +84,12 @@ static struct node_sensor previous_sensor_state(const struct node_sensors *senso
     return (struct node_sensor){.sensor_id = sensor->sensor_id, .kind = sensor->kind};
 }
 
-void node_sensors_print_suspicion_and_silence_changes(struct node_sensors *sensors,
-                                                      const struct node_core *core, FILE *to)
+void node_sensors_print_changes(struct node_sensors *sensors, const struct node_core *core,
+                                FILE *to)
 {
     struct rho_message_sensor now[RHO_MAX_SENSORS];
     struct node_sensors next = {.count = 0};
-    const unsigned count = node_sensors_list_heard_enough_scans(core, now);
+    const unsigned count = node_sensors_list_established(core, now);
 
     for (unsigned i = 0; i < count; i++) {
         const bool has_two_senders = node_core_has_two_senders(core, now[i].sensor_id);
@@ -97,7 +97,7 @@ void node_sensors_print_suspicion_and_silence_changes(struct node_sensors *senso
         if (to) {
             struct node_sensor before = previous_sensor_state(sensors, &now[i]);
 
-            print_if_newly_suspect_silent_or_well(&before, &now[i], to);
+            print_health_change(&before, &now[i], to);
             if (has_two_senders && !before.has_two_senders) {
                 fprintf(to,
                         "rhotrack: sensor %d: a scan came twice with different contents: two "
@@ -111,10 +111,10 @@ void node_sensors_print_suspicion_and_silence_changes(struct node_sensors *senso
     *sensors = next;
 }
 
-void node_sensors_print_suspect_and_silent(const struct node_core *core, FILE *to)
+void node_sensors_print_all(const struct node_core *core, FILE *to)
 {
     struct rho_message_sensor now[RHO_MAX_SENSORS];
-    const unsigned count = node_sensors_list_heard_enough_scans(core, now);
+    const unsigned count = node_sensors_list_established(core, now);
 
     for (unsigned i = 0; i < count; i++) {
         if (now[i].is_doubted) {

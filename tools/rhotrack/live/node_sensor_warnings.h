@@ -28,17 +28,17 @@ struct node_sensors {
  * Lists the sensors of node_core_list_sensors that have sent at least follow_scans scans. Returns
  * their number.
  */
-unsigned node_sensors_list_heard_enough_scans(const struct node_core *core,
-                                              struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
+unsigned node_sensors_list_established(const struct node_core *core,
+                                       struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
 
 /*
  * Prints one line for each change of a sensor's state since the last call; `to` NULL: prints
  * nothing.
  */
-void node_sensors_print_suspicion_and_silence_changes(struct node_sensors *sensors,
-                                                      const struct node_core *core, FILE *to);
+void node_sensors_print_changes(struct node_sensors *sensors, const struct node_core *core,
+                                FILE *to);
 
 /* For the summary at the end: prints one line for each suspect or silent sensor. */
-void node_sensors_print_suspect_and_silent(const struct node_core *core, FILE *to);
+void node_sensors_print_all(const struct node_core *core, FILE *to);
 
 #endif

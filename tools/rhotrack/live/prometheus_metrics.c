@@ -196,7 +196,7 @@ static void write_time_histogram(FILE *out, const char *name, const char *help,
 static void write_times_and_work(FILE *out, const struct prometheus_metrics_source *source)
 {
     const struct rho_tracker *tracker = node_core_tracker_state(source->core);
-    const struct node_core_times *steps = node_core_step_duration_histogram(source->core);
+    const struct node_core_times *steps = node_core_step_histogram(source->core);
     const struct node_core_times *latencies = node_core_latencies(source->core);
 
     write_time_histogram(out, "step_seconds", "Time of a step.", steps);
@@ -309,11 +309,9 @@ static void write_learned_pd(FILE *out, const struct prometheus_metrics_source *
 }
 
 /* Writes each sensor's sample size: of its looks where is_looks, else of its innovations. */
-static void write_number_of_looks_or_innovations(FILE *out,
-                                                 const struct prometheus_metrics_source *source,
-                                                 const char *name, const char *help,
-                                                 const struct learned *learned, unsigned count,
-                                                 bool is_looks)
+static void write_num_samples(FILE *out, const struct prometheus_metrics_source *source,
+                              const char *name, const char *help, const struct learned *learned,
+                              unsigned count, bool is_looks)
 {
     write_family_head(out, name, "gauge", help);
     for (unsigned i = 0; i < count; i++) {
@@ -337,12 +335,11 @@ static void write_learned(FILE *out, const struct prometheus_metrics_source *sou
     }
     write_learned_noise(out, source, learned, count);
     write_learned_pd(out, source, learned, count);
-    write_number_of_looks_or_innovations(out, source, "sensor_innovations",
-                                         "Innovations that the noise is learned of.", learned,
-                                         count, false);
-    write_number_of_looks_or_innovations(out, source, "sensor_looks",
-                                         "Looks that the probability of detection is learned of.",
-                                         learned, count, true);
+    write_num_samples(out, source, "sensor_innovations",
+                      "Innovations that the noise is learned of.", learned, count, false);
+    write_num_samples(out, source, "sensor_looks",
+                      "Looks that the probability of detection is learned of.", learned, count,
+                      true);
 }
 
 /* ---- Zones ---- */

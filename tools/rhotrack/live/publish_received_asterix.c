@@ -16,11 +16,11 @@
 #include "base/common.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_udp_receiver.h"
-#include "io/csv/table_columns_and_cells.h"
-#include "io/log/message_shift_time_number_epoch.h"
+#include "io/csv/csv_table.h"
+#include "io/log/message_shift.h"
 #include "io/rows/rows_from_csv.h"
 #include "io/rows/rows_to_messages.h"
-#include "live/publish_stop_signals_epoch_and_send.h"
+#include "live/publish_stop.h"
 
 #define WAIT_S 30.0 /* wait for a radar's place, and for its antenna messages */
 #define POLL_MS 100
@@ -45,8 +45,7 @@ struct forwarding {
 /* ---- Places ---- */
 
 /* True within WAIT_S of a radar's first scan, whose time is recorded. */
-static bool note_radar_first_scan_and_test_within_wait(struct forwarding *forwarding,
-                                                       const struct asterix_scan *scan)
+static bool is_radar_scan_due(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
     size_t i = 0;
 
@@ -66,18 +65,17 @@ static bool note_radar_first_scan_and_test_within_wait(struct forwarding *forwar
  */
 static bool is_radar_place_awaited(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
-    return note_radar_first_scan_and_test_within_wait(forwarding, scan) && !scan->place.is_given &&
+    return is_radar_scan_due(forwarding, scan) && !scan->place.is_given &&
            isnan(parameters_value_of_sensor(&forwarding->parameters, scan->sensor_id, SENSOR_X_M,
                                             NAN));
 }
 
-static void set_and_report_origin_if_lacking(struct forwarding *forwarding,
-                                             const struct asterix_place *place)
+static void set_missing_origin(struct forwarding *forwarding, const struct asterix_place *place)
 {
     struct parameters *parameters = &forwarding->parameters;
 
     if (place->is_given && !parameters_has_origin(parameters)) {
-        asterix_set_and_report_default_origin(forwarding->url, place, parameters);
+        asterix_set_default_origin(forwarding->url, place, parameters);
     }
 }
 
@@ -99,7 +97,7 @@ static void send_rows_as_messages(struct forwarding *forwarding, struct rows_fil
     struct rows_at at = {.scan = 0};
     struct rows_output output;
 
-    rows_to_messages_group_into_scans(&scans, file, 0);
+    rows_to_messages_make_scans(&scans, file, 0);
     while (rows_to_messages_next_message(&scans, &at, &output)) {
         message_replace_epoch_number(output.data, output.size, PUBLISH_EPOCH_OF_CSV,
                                      forwarding->epoch);
@@ -115,7 +113,7 @@ static void send_scan_unless_place_awaited(struct forwarding *forwarding,
     struct rows_file file;
     struct table *table;
 
-    set_and_report_origin_if_lacking(forwarding, &scan->place);
+    set_missing_origin(forwarding, &scan->place);
     if (!scan->is_numbered) {
         forwarding->scans_free++;
         return;
@@ -172,11 +170,11 @@ static void receive_and_publish_until_end(struct forwarding *forwarding, int rec
     free(datagram);
 }
 
-static void print_datagram_plot_and_scan_counts(const struct forwarding *forwarding)
+static void print_datagram_counts(const struct forwarding *forwarding)
 {
     const struct asterix_counts *counts = asterix_scans_counts(forwarding->scans);
 
-    asterix_plot_rows_report_left_out(forwarding->url, counts);
+    asterix_plot_rows_report(forwarding->url, counts);
     print_count_unless_zero(forwarding->url, forwarding->heard.bad,
                             "datagrams used up to an error in them");
     print_count_unless_zero(forwarding->url, forwarding->heard.others,
@@ -200,7 +198,7 @@ static void date_scans_by_today(struct asterix_scans *scans)
     struct timespec now;
 
     clock_gettime(CLOCK_REALTIME, &now);
-    asterix_scans_set_reference_time(scans, (int64_t)now.tv_sec * ASTERIX_TIME_HZ);
+    asterix_scans_set_day(scans, (int64_t)now.tv_sec * ASTERIX_TIME_HZ);
 }
 
 int publish_asterix(const struct command_line *line)
@@ -231,7 +229,7 @@ int publish_asterix(const struct command_line *line)
     receiver = asterix_udp_receiver_open(forwarding->url);
     forwarding->transport = transport_open(line->lcm, TRANSPORT_SEND);
     receive_and_publish_until_end(forwarding, receiver);
-    print_datagram_plot_and_scan_counts(forwarding);
+    print_datagram_counts(forwarding);
     close(receiver);
     transport_close(forwarding->transport);
     asterix_scans_close(forwarding->scans);

@@ -37,7 +37,7 @@ static int64_t system_time_us(void)
 }
 
 /* Formats the time stamp of a line; "" for the journal, and while no time is known. */
-static void format_time_stamp_of_error_line(char text[TIME_BYTES])
+static void format_time_stamp(char text[TIME_BYTES])
 {
     const int64_t time_us = lines.is_live ? system_time_us() : lines.time_us;
     const int64_t within_us = (time_us % 1000000 + 1000000) % 1000000;
@@ -77,12 +77,12 @@ static const char *name_of_sensor_number_in_text(const char *text, const char *b
 }
 
 /* Writes a line, or a piece of one, with its time stamp and with names behind sensors' numbers. */
-static void write_stamped_line_adding_sensor_names(FILE *out, const char *text)
+static void write_stamped_line(FILE *out, const char *text)
 {
     char time[TIME_BYTES] = "";
 
     if (!lines.is_within) {
-        format_time_stamp_of_error_line(time);
+        format_time_stamp(time);
     }
     fputs(time, out);
     for (const char *at = text; *at;) {
@@ -120,7 +120,7 @@ static ssize_t write_stamped_lines_to_stderr(void *cookie, const char *text, siz
         piece[bytes] = '\0';
         out = open_memstream(&whole, &length);
         if (out) {
-            write_stamped_line_adding_sensor_names(out, piece);
+            write_stamped_line(out, piece);
             fclose(out);
             write_to_stderr_or_note_loss(whole, length);
             free(whole);
@@ -163,7 +163,7 @@ static bool is_systemd_journal(const struct stat *status)
     return journal && strcmp(journal, own) == 0;
 }
 
-void error_lines_stamp_and_name_on_stderr(const struct parameters *parameters, bool is_live)
+void error_lines_stamp_stderr(const struct parameters *parameters, bool is_live)
 {
     const cookie_io_functions_t functions = {.write = write_stamped_lines_to_stderr};
     struct stat status;
@@ -193,7 +193,7 @@ void error_lines_write_directly(const char *text)
 {
     char time[TIME_BYTES], line[LINE_BYTES];
 
-    format_time_stamp_of_error_line(time);
+    format_time_stamp(time);
     write_to_stderr_or_note_loss(line,
                                  (size_t)snprintf(line, sizeof line, "%s%.1000s", time, text));
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * stderr_time_stamps: standard error of a long-running program. After
- * error_lines_stamp_and_name_on_stderr every line written to stderr begins with a time stamp, and
+ * error_lines_stamp_stderr every line written to stderr begins with a time stamp, and
  * sensors that have a name ([sensor N] name) are printed with it:
  *
  *     2026-11-22T09:14:03.250Z rhotrack: sensor 1 (north) is silent: ...
@@ -23,7 +23,7 @@
  *   is_live  time stamps are the time of day; else the time of error_lines_set_time, and none
  *            before its first call
  */
-void error_lines_stamp_and_name_on_stderr(const struct parameters *parameters, bool is_live);
+void error_lines_stamp_stderr(const struct parameters *parameters, bool is_live);
 
 /* Sets the time stamp of later lines in a replay: the time of the last message, us since 1970. */
 void error_lines_set_time(int64_t time_us);

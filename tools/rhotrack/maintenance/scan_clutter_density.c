@@ -171,8 +171,8 @@ static void add_scan_to_spread(struct spread *spread, const struct rho_scan *sca
  * Covariance of the scatter: variances at least those of the plots' noise, and correlations shrunk
  * where they rest on few plots.
  */
-static void fill_covariance_of_plot_scatter(const struct spread *spread, int axes,
-                                            double covariance[AXES][AXES])
+static void fill_scatter_covariance(const struct spread *spread, int axes,
+                                    double covariance[AXES][AXES])
 {
     double few = fmin(axes / spread->freedom, 1.0), share = 1.0 - few * few;
     double sd[AXES], old[AXES];
@@ -205,7 +205,7 @@ static double determinant(double a[AXES][AXES], int axes)
            a[2][0] * (a[0][1] * a[1][2] - a[0][2] * a[1][1]);
 }
 
-static double log_volume_of_ellipsoid_of_plot_scatter(const struct spread *spread, int axes)
+static double log_scatter_volume(const struct spread *spread, int axes)
 {
     double covariance[AXES][AXES] = {{0.0}}, d = axes;
     double log_ball = d / 2.0 * log(M_PI * (d + 2.0)) - lgamma(d / 2.0 + 1.0);
@@ -213,13 +213,12 @@ static double log_volume_of_ellipsoid_of_plot_scatter(const struct spread *sprea
     if (!(spread->freedom > 0.5)) {
         return log_ball + d * log(SD_UNKNOWN);
     }
-    fill_covariance_of_plot_scatter(spread, axes, covariance);
+    fill_scatter_covariance(spread, axes, covariance);
     return log_ball + 0.5 * log(determinant(covariance, axes));
 }
 
-double scan_clutter_density_add_and_get_log(struct scan_clutter_density *density,
-                                            const struct rho_scan *scan, const double place_m[3],
-                                            double pd)
+double scan_clutter_density_add(struct scan_clutter_density *density, const struct rho_scan *scan,
+                                const double place_m[3], double pd)
 {
     struct sensor_statistics *seen = find_or_add_sensor(density, scan->sensor_id);
     size_t left_out = find_nearest_plot(scan, place_m);
@@ -233,7 +232,7 @@ double scan_clutter_density_add_and_get_log(struct scan_clutter_density *density
 
         add_scan_to_spread(&seen->spreads[quantity], scan, (enum quantity)quantity, left_out);
         if (axes > 0) {
-            log_density -= log_volume_of_ellipsoid_of_plot_scatter(&seen->spreads[quantity], axes);
+            log_density -= log_scatter_volume(&seen->spreads[quantity], axes);
         }
     }
     return log_density;

@@ -32,8 +32,7 @@ void scan_clutter_density_free(struct scan_clutter_density *density);
  * that the scan measures: per m^2 or m^3, (m/s)^2 or (m/s)^3 of velocities, and m/s of range rates.
  * place_m: predicted place of the track.
  */
-double scan_clutter_density_add_and_get_log(struct scan_clutter_density *density,
-                                            const struct rho_scan *scan, const double place_m[3],
-                                            double pd);
+double scan_clutter_density_add(struct scan_clutter_density *density, const struct rho_scan *scan,
+                                const double place_m[3], double pd);
 
 #endif

@@ -58,7 +58,7 @@ static void set_gnuplot_terminal(const struct picture *picture)
 /*
  * Writes the output file's name quoted for gnuplot: a single quote within single quotes is doubled.
  */
-static void write_gnuplot_set_output_command(const struct picture *picture)
+static void write_set_output(const struct picture *picture)
 {
     fputs("set output '", picture->script);
     for (const char *c = picture->temporary_path; *c; c++) {
@@ -81,7 +81,7 @@ struct picture picture_open(const char *path, int width, int height)
         fail(EXIT_RUNTIME, "%s: %s", picture.script_path, strerror(errno));
     }
     set_gnuplot_terminal(&picture);
-    write_gnuplot_set_output_command(&picture);
+    write_set_output(&picture);
     fprintf(picture.script, "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
                             "set grid lc rgb '#dddddd' lt 1 lw 0.7\n"
                             "set key outside right top vertical Left reverse\n");

@@ -6,10 +6,9 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/scans/plot_scan_reader.h"
-#include "picture/interactive_map_page_parts.h"
-
-/* ---- arrays of numbers, as the page's script reads them: little-endian, in base64 ---- */
+#include "io/csv/columns.h"
+#include "io/scans/plot_reader.h"
+#include "picture/map_page_parts.h"
 
 struct bytes {
     uint8_t *data;
@@ -71,8 +70,6 @@ static void write_and_free_base64_array(FILE *file, const char *name, struct byt
     free(bytes->data);
 }
 
-/* ---- fates of plots ---- */
-
 /*
  * share of unmatched claims that is tolerated without a warning: rows of late scans may have
  * another time
@@ -126,7 +123,8 @@ static int by_id(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-static uint32_t fate_code_of_plot_taken_by_track(const struct track_ids *ids, int32_t track_id)
+/* Fate of a plot that a track has taken. */
+static uint32_t fate_of_plot(const struct track_ids *ids, int32_t track_id)
 {
     const int32_t *found = bsearch(&track_id, ids->list, ids->count, sizeof ids->list[0], by_id);
     return found ? FATE_OF_TRACK + (uint32_t)(found - ids->list) : FATE_OF_TENTATIVE;
@@ -140,9 +138,9 @@ struct claims {
 static void add_claims_of_table(struct claims *claims, const struct track_ids *ids,
                                 const struct table *table)
 {
-    const int time = table_need_column(table, "t_s"), id = table_need_column(table, "track_id");
-    const int sensor = table_find_column(table, "sensor_id"),
-              plot = table_find_column(table, "plot");
+    const struct columns columns = columns_find(table);
+    const int time = columns_need(&columns, COL_T_S), id = columns_need(&columns, COL_TRACK_ID);
+    const int sensor = columns.at[COL_SENSOR_ID], plot = columns.at[COL_PLOT];
     for (size_t row = 0; plot >= 0 && row < table->num_rows; row++) {
         const double index = table_number_or(table, row, plot, -1.0);
         struct claim claim = {0};
@@ -151,8 +149,7 @@ static void add_claims_of_table(struct claims *claims, const struct track_ids *i
             continue;
         }
         claim.plot = (uint32_t)index;
-        claim.fate =
-            fate_code_of_plot_taken_by_track(ids, (int32_t)table_number_or(table, row, id, -1.0));
+        claim.fate = fate_of_plot(ids, (int32_t)table_number_or(table, row, id, -1.0));
         claim.sensor_id = (int32_t)table_number_or(table, row, sensor, 0.0);
         claims->list = must_make_room_for_one(claims->list, claims->count, &claims->capacity,
                                               sizeof claims->list[0]);
@@ -217,8 +214,6 @@ static void warn_of_unmatched_claims(const struct claims *claims)
     }
 }
 
-/* ---- the page's arrays ---- */
-
 static double seconds_since(int64_t time_us, int64_t zero_us)
 {
     return (double)(time_us - zero_us) * 1e-6;
@@ -231,10 +226,10 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
     struct claims claims = collect_claims(data);
     uint32_t count = 0;
     if (data->num_plot_paths > 0) {
-        struct plot_scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
-            data->plot_paths, data->num_plot_paths, parameters);
+        struct plot_reader *reader =
+            plot_reader_open_sensorless(data->plot_paths, data->num_plot_paths, parameters);
         const struct rho_scan *scan;
-        while ((scan = plot_scan_reader_next(reader)) != NULL) {
+        while ((scan = plot_reader_next(reader)) != NULL) {
             append_double(&time, seconds_since(scan->time_us, zero_us));
             append_little_endian_uint32(&first, count);
             for (uint32_t i = 0; i < scan->num_plots; i++) {
@@ -244,7 +239,7 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
             }
             count += scan->num_plots;
         }
-        plot_scan_reader_close(reader);
+        plot_reader_close(reader);
         warn_of_unmatched_claims(&claims);
     }
     append_little_endian_uint32(&first, count);
@@ -367,7 +362,7 @@ void html_page_write(const char *path, const struct picture_data *data,
                      const struct parameters *parameters)
 {
     struct output output = output_open(path);
-    const int64_t zero_us = picture_data_late_time_origin_or_0_us(data);
+    const int64_t zero_us = picture_data_time_origin_us(data);
     FILE *file = output.file;
     fprintf(file,
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"

@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "io/csv/csv_table.h"
 #include "io/csv/measurement_row.h"
-#include "io/csv/table_columns_and_cells.h"
 #include "io/log/lcm_log.h"
-#include "io/log/log_messages_to_table.h"
 #include "io/log/log_scans.h"
-#include "io/rows/read_truth_or_track_row.h"
-#include "io/scans/bearing_frame_reader.h"
+#include "io/log/log_table.h"
+#include "io/rows/trajectory_row.h"
+#include "io/scans/bearing_reader.h"
 #include "rhotrack/message.h"
 
 /* a first time at or beyond this is a clock's time: pictures then count from it */
@@ -55,13 +55,13 @@ static void add_plots_of_table(struct picture_data *data, const struct table *ta
                                const struct parameters *parameters)
 {
     struct plot_points *points = &data->plots;
-    const bool is_polar = table_find_column(table, "range_m") >= 0;
-    struct measurement_row_columns columns =
-        measurement_row_columns_find(table, parameters, RECORD_PLOTS, false);
+    struct measurement_columns columns =
+        measurement_columns_find(table, parameters, RECORD_PLOTS, false);
+    const bool is_polar = columns.in_file.at[COL_RANGE_M] >= 0;
     char reason[ROW_REASON_BYTES];
     for (size_t row = 0; row < table->num_rows; row++) {
         struct measurement_row record;
-        if (!measurement_row_read(table, &columns, row, parameters, &record, reason)) {
+        if (!measurement_row_read(&columns, row, parameters, &record, reason)) {
             table_fail_at_row(table, row, "%s", reason);
         }
         if (record.has_measurement) {
@@ -72,7 +72,7 @@ static void add_plots_of_table(struct picture_data *data, const struct table *ta
                                     .y_m = (double)record.plot.y_m};
         }
     }
-    measurement_row_columns_free(&columns);
+    measurement_columns_free(&columns);
 }
 
 static double nan_to_0(double number)
@@ -120,24 +120,19 @@ static void add_points_of_table(struct picture_data *data, struct plot_points *p
     }
 }
 
-/*
- * Keeps a table of tracks: errors in its rows may be found only when they are compared with the
- * truth.
- */
-static void keep_track_table(struct picture_data *data, struct table *table)
-{
-    data->track_tables =
-        must_make_room_for_one(data->track_tables, data->num_track_tables,
-                               &data->track_tables_capacity, sizeof(struct table *));
-    data->track_tables[data->num_track_tables++] = table;
-}
-
 static void add_and_consume_table(struct picture_data *data, struct table *table,
                                   const struct parameters *parameters)
 {
     if (table_find_column(table, "track_id") >= 0) {
         add_points_of_table(data, &data->tracks, table, parameters);
-        keep_track_table(data, table);
+        /*
+         * Keeps a table of tracks: errors in its rows may be found only when they are compared with
+         * the truth.
+         */
+        data->track_tables =
+            must_make_room_for_one(data->track_tables, data->num_track_tables,
+                                   &data->track_tables_capacity, sizeof(struct table *));
+        data->track_tables[data->num_track_tables++] = table;
         return;
     }
     /* plots of a simulated scene have a column target_id as well */
@@ -173,19 +168,6 @@ static void add_points_of_file(struct picture_data *data, const char *path,
     }
 }
 
-/* ---- bearings ---- */
-
-static void list_bearing_sensors(struct plot_rays *rays, const struct bearing_frame_reader *reader)
-{
-    const struct frame_sensor *sensors = bearing_frame_reader_sensors(reader, &rays->num_sensors);
-    rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
-    for (size_t i = 0; i < rays->num_sensors; i++) {
-        rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
-                                               .x_m = (double)sensors[i].x_m,
-                                               .y_m = (double)sensors[i].y_m};
-    }
-}
-
 static void add_rays_of_scan(struct plot_rays *rays, const struct rho_bearing_scan *scan,
                              double length_m)
 {
@@ -209,22 +191,24 @@ static void add_rays_of_scan(struct plot_rays *rays, const struct rho_bearing_sc
 static void read_all_bearings(struct plot_rays *rays, char *const *paths, int num_paths,
                               const struct parameters *parameters)
 {
-    struct bearing_frame_reader *reader =
-        bearing_frame_reader_open(paths, num_paths, parameters, false);
+    struct bearing_reader *reader = bearing_reader_open(paths, num_paths, parameters, false);
     const struct rho_frame *frame;
-    list_bearing_sensors(rays, reader);
-    rays->list =
-        must_calloc(bearing_frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
-    while ((frame = bearing_frame_reader_next(reader)) != NULL) {
+    const struct frame_sensor *sensors = bearing_reader_sensors(reader, &rays->num_sensors);
+    rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
+    for (size_t i = 0; i < rays->num_sensors; i++) {
+        rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
+                                               .x_m = (double)sensors[i].x_m,
+                                               .y_m = (double)sensors[i].y_m};
+    }
+    rays->list = must_calloc(bearing_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
+    while ((frame = bearing_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
             const struct rho_bearing_scan *scan = &frame->scans[i];
             add_rays_of_scan(rays, scan, parameters_range_max_m(parameters, scan->sensor_id));
         }
     }
-    bearing_frame_reader_close(reader);
+    bearing_reader_close(reader);
 }
-
-/* ---- all files ---- */
 
 static int by_id_and_time(const void *a, const void *b)
 {
@@ -305,7 +289,7 @@ struct picture_data picture_data_read(char *const *paths, int num_paths,
     for (int i = 0; i < num_paths; i++) {
         bool is_log = lcm_log_is_log(paths[i]);
         bool has_bearings = is_log ? (log_scans_kinds(paths[i]) & LOG_HAS_BEARINGS) != 0
-                                   : bearing_frame_reader_file_has_bearings(paths[i]);
+                                   : bearing_reader_is_bearings(paths[i]);
         if (has_bearings) {
             bearings[num_bearings++] = paths[i];
         }
@@ -329,8 +313,7 @@ struct picture_data picture_data_read(char *const *paths, int num_paths,
 }
 
 /* The earliest time of the points, or otherwise_us if that is earlier. */
-static int64_t earliest_of_points_and_given_time_us(const struct plot_points *points,
-                                                    int64_t otherwise_us)
+static int64_t earliest_time_us(const struct plot_points *points, int64_t otherwise_us)
 {
     for (size_t i = 0; i < points->count; i++) {
         otherwise_us =
@@ -339,11 +322,10 @@ static int64_t earliest_of_points_and_given_time_us(const struct plot_points *po
     return otherwise_us;
 }
 
-int64_t picture_data_late_time_origin_or_0_us(const struct picture_data *data)
+int64_t picture_data_time_origin_us(const struct picture_data *data)
 {
-    int64_t zero_us = earliest_of_points_and_given_time_us(&data->truth, INT64_MAX);
-    zero_us = earliest_of_points_and_given_time_us(
-        &data->plots, earliest_of_points_and_given_time_us(&data->tracks, zero_us));
+    int64_t zero_us = earliest_time_us(&data->truth, INT64_MAX);
+    zero_us = earliest_time_us(&data->plots, earliest_time_us(&data->tracks, zero_us));
     for (size_t i = 0; i < data->bearings.count; i++) {
         const int64_t time_us = data->bearings.list[i].time_us;
         zero_us = time_us < zero_us ? time_us : zero_us;
@@ -351,9 +333,9 @@ int64_t picture_data_late_time_origin_or_0_us(const struct picture_data *data)
     return zero_us == INT64_MAX || llabs(zero_us) < LATE_US ? 0 : zero_us;
 }
 
-void picture_data_write_time_axis_label(const struct picture_data *data, char *text, size_t size)
+void picture_data_write_time_label(const struct picture_data *data, char *text, size_t size)
 {
-    const int64_t zero_us = picture_data_late_time_origin_or_0_us(data);
+    const int64_t zero_us = picture_data_time_origin_us(data);
     if (zero_us == 0) {
         snprintf(text, size, "time (s)");
     } else {

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 #include "settings/parameters.h"
 
 #define PLOT_LEGEND_MAX 8 /* most tracks or targets that have an entry each in the legend */
@@ -90,8 +90,8 @@ size_t picture_data_count_identities(const struct plot_points *points);
  * Time that pictures show as 0: the earliest time where it is a clock's (1000 s or more), else 0;
  * and the label of a time axis, "time (s)" or "time (s), from T on".
  */
-int64_t picture_data_late_time_origin_or_0_us(const struct picture_data *data);
-void picture_data_write_time_axis_label(const struct picture_data *data, char *text, size_t size);
+int64_t picture_data_time_origin_us(const struct picture_data *data);
+void picture_data_write_time_label(const struct picture_data *data, char *text, size_t size);
 
 /* The number that a track's row has in this column; NAN without such a column or number. */
 double plot_data_number_in_column(const struct plot_point *track, const char *column);

@@ -14,8 +14,6 @@
 #define RING_POINTS 144
 #define MARKER_PIXELS 14.0
 
-/* ---- the visible area ---- */
-
 struct map_box map_box_empty(void)
 {
     return (struct map_box){INFINITY, -INFINITY, INFINITY, -INFINITY};
@@ -53,19 +51,14 @@ static bool is_inside_box(const struct map_box *box, double x_m, double y_m)
     return x_m > box->x_min_m && x_m < box->x_max_m && y_m > box->y_min_m && y_m < box->y_max_m;
 }
 
-static void add_box_margin(struct map_box *box)
-{
-    if (!(box->x_min_m <= box->x_max_m)) {
-        map_box_include(box, 0.0, 0.0);
-    }
-    const double margin_m = fmax(MARGIN_MIN_M, MARGIN * longer_side_m(box));
-    map_box_include(box, box->x_min_m - margin_m, box->y_min_m - margin_m);
-    map_box_include(box, box->x_max_m + margin_m, box->y_max_m + margin_m);
-}
-
 struct map map_start(const struct picture *picture, struct map_box box)
 {
-    add_box_margin(&box);
+    if (!(box.x_min_m <= box.x_max_m)) {
+        map_box_include(&box, 0.0, 0.0);
+    }
+    const double margin_m = fmax(MARGIN_MIN_M, MARGIN * longer_side_m(&box));
+    map_box_include(&box, box.x_min_m - margin_m, box.y_min_m - margin_m);
+    map_box_include(&box, box.x_max_m + margin_m, box.y_max_m + margin_m);
     const double unit_m = longer_side_m(&box) > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     const char *unit = unit_m > 1.0 ? "km" : "m";
     fprintf(picture->script,
@@ -81,8 +74,6 @@ struct map map_start(const struct picture *picture, struct map_box box)
                                  (picture->height - AXES_PIXELS) / (box.y_max_m - box.y_min_m)),
                         .box = box};
 }
-
-/* ---- points ---- */
 
 void map_write_point(const struct map *map, const struct plot_point *point, int64_t zero_us)
 {
@@ -111,7 +102,7 @@ size_t map_num_plots_drawn(size_t count)
  * Samples one plot of each of MAP_PLOTS_MAX equal parts of the list, at a pseudo-random place
  * within the part, so that samples do not follow the period of the scans.
  */
-size_t map_sampled_plot_index(size_t k, size_t count)
+static size_t sampled_plot_index(size_t k, size_t count)
 {
     if (count <= MAP_PLOTS_MAX) {
         return k;
@@ -125,7 +116,7 @@ void map_write_sampled_plots(const struct map *map, const struct plot_points *pl
 {
     fprintf(map->script, "$plots << EOD\n");
     for (size_t k = 0; k < map_num_plots_drawn(plots->count); k++) {
-        map_write_point(map, &plots->list[map_sampled_plot_index(k, plots->count)], zero_us);
+        map_write_point(map, &plots->list[sampled_plot_index(k, plots->count)], zero_us);
     }
     fprintf(map->script, "EOD\n");
 }
@@ -159,8 +150,6 @@ size_t map_points_between_markers(const struct map *map, const struct plot_point
     return (size_t)fmax(1.0, ceil((double)path->count / markers));
 }
 
-/* ---- radars ---- */
-
 double map_round_down_to_1_2_5(double value)
 {
     const double decade = pow(10.0, floor(log10(fmax(value, 1e-9))));
@@ -171,8 +160,7 @@ double map_round_down_to_1_2_5(double value)
  * Radius of the largest range ring: distance to the farthest corner of the map, or the radar's
  * maximum range if that is less.
  */
-static double radius_to_farthest_map_corner_or_range_max_m(const struct map *map,
-                                                           const struct plot_radar *radar)
+static double farthest_ring_radius_m(const struct map *map, const struct plot_radar *radar)
 {
     const double x_m =
         fmax(fabs(map->box.x_min_m - radar->x_m), fabs(map->box.x_max_m - radar->x_m));
@@ -221,7 +209,7 @@ static void label_range_ring(const struct map *map, const struct plot_radar *rad
 /* Spacing of the radar's range rings in metres, and their number in *count. */
 static double ring_spacing_m(const struct map *map, const struct plot_radar *radar, int *count)
 {
-    const double farthest_m = fmax(radius_to_farthest_map_corner_or_range_max_m(map, radar), 1.0);
+    const double farthest_m = fmax(farthest_ring_radius_m(map, radar), 1.0);
     const double step_m = map_round_down_to_1_2_5(farthest_m / RINGS);
     *count = (int)floor(farthest_m / step_m + 1e-9);
     return step_m;
@@ -268,8 +256,7 @@ static void put_coverage_outline(const struct map *map, const struct plot_radar 
     fputc('\n', map->script);
 }
 
-void map_write_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
-                                        size_t count)
+void map_write_range_rings(const struct map *map, const struct plot_radar *radars, size_t count)
 {
     fprintf(map->script, "$rings << EOD\n");
     for (size_t i = 0; i < count && count <= RADARS_RINGED; i++) {
@@ -285,8 +272,7 @@ void map_write_range_rings_and_coverage(const struct map *map, const struct plot
     }
 }
 
-void map_draw_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
-                                       size_t count)
+void map_draw_range_rings(const struct map *map, const struct plot_radar *radars, size_t count)
 {
     bool is_limited = false;
     for (size_t i = 0; i < count; i++) {

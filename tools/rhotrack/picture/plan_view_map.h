@@ -50,12 +50,8 @@ void map_write_point(const struct map *map, const struct plot_point *point, int6
 /* Writes the points as a data block $name; two blank lines separate identities. */
 void map_write_points(const struct map *map, const char *name, const struct plot_points *points);
 
-/*
- * Number of plots drawn of `count`, and index of the k-th drawn one: evenly spread, but not in step
- * with the scans.
- */
+/* Number of plots drawn of `count`. */
 size_t map_num_plots_drawn(size_t count);
-size_t map_sampled_plot_index(size_t k, size_t count);
 
 /* Writes the drawn plots as the data block $plots. */
 void map_write_sampled_plots(const struct map *map, const struct plot_points *plots,
@@ -68,14 +64,12 @@ void map_write_sampled_plots(const struct map *map, const struct plot_points *pl
 void map_draw_plots(const struct map *map, const struct plot_points *plots);
 
 /*
- * map_write_range_rings_and_coverage writes data blocks and labels, before the command plot: range
+ * map_write_range_rings writes data blocks and labels, before the command plot: range
  * rings (for at most three radars: more would hide the rest) and coverage where it is known.
- * map_draw_range_rings_and_coverage writes the clauses of the command plot that draw them.
+ * map_draw_range_rings writes the clauses of the command plot that draw them.
  */
-void map_write_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
-                                        size_t count);
-void map_draw_range_rings_and_coverage(const struct map *map, const struct plot_radar *radars,
-                                       size_t count);
+void map_write_range_rings(const struct map *map, const struct plot_radar *radars, size_t count);
+void map_draw_range_rings(const struct map *map, const struct plot_radar *radars, size_t count);
 
 /* Interval in points between markers of a path, so that neighbouring markers can be told apart. */
 size_t map_points_between_markers(const struct map *map, const struct plot_points *path);

@@ -8,8 +8,6 @@
 #include "base/common.h"
 #include "picture/plan_view_map.h"
 
-/* ---- sensors ---- */
-
 static struct plot_radar *find_sensor_by_id(struct plot_radar *sensors, size_t count,
                                             int32_t sensor_id)
 {
@@ -37,7 +35,7 @@ static struct plot_radar *list_echo_sensors(const struct clutter_echo *echoes, s
         if (!find_sensor_by_id(sensors, *num_sensors, echoes[i].sensor_id)) {
             struct rho_sensor described;
 
-            parameters_to_sensor_or_defaults(parameters, echoes[i].sensor_id, &described);
+            parameters_sensor_or_default(parameters, echoes[i].sensor_id, &described);
             sensors = must_make_room_for_one(sensors, *num_sensors, &capacity, sizeof *sensors);
             sensors[(*num_sensors)++] = (struct plot_radar){.sensor_id = echoes[i].sensor_id,
                                                             .x_m = (double)described.x_m,
@@ -63,8 +61,6 @@ static struct map_box map_box_of_echoes(const struct clutter_echo *echoes, size_
     map_box_include_points(&box, plots);
     return box;
 }
-
-/* ---- drawing ---- */
 
 static double echo_point_size(double hits)
 {
@@ -111,10 +107,10 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
     for (size_t i = 0; i < num_sensors; i++) {
         put_echoes_of_sensor(&map, echoes, count, sensors[i].sensor_id, i);
     }
-    map_write_range_rings_and_coverage(&map, sensors, num_sensors);
+    map_write_range_rings(&map, sensors, num_sensors);
     map_write_sampled_plots(&map, &data->plots, 0);
     fprintf(map.script, "unset grid\nplot NaN notitle");
-    map_draw_range_rings_and_coverage(&map, sensors, num_sensors);
+    map_draw_range_rings(&map, sensors, num_sensors);
     map_draw_plots(&map, &data->plots);
     for (size_t i = 0; i < num_sensors; i++) {
         fprintf(map.script,

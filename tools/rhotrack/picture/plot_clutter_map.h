@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_PLOT_CLUTTER_MAP_H
 #define RHOTRACK_TOOL_PLOT_CLUTTER_MAP_H
 
-#include "io/output/clutter_map_load_and_save.h"
+#include "io/output/clutter_map_file.h"
 #include "picture/gnuplot_picture_file.h"
 #include "picture/picture_data.h"
 

@@ -5,12 +5,10 @@
 #include <stdlib.h>
 
 #include "base/common.h"
+#include "evaluation/alignment.h"
 #include "evaluation/gospa.h"
-#include "evaluation/track_rows_at_truth_times.h"
 
 #define MARKERS_MAX 40 /* most markers on a line; closer ones cannot be told apart */
-
-/* ---- pairs ---- */
 
 /*
  * Collects places and indices (*at) of the points at one time, except tentative ones; returns their
@@ -83,8 +81,6 @@ static void fail_if_no_error_known(const struct error_finder *finder)
          finder->cutoff_m);
 }
 
-/* ---- tracks at the truth's times ---- */
-
 static int by_time(const void *a, const void *b)
 {
     const struct plot_point *one = a, *other = b;
@@ -127,19 +123,17 @@ static struct plot_point extrapolated_to_time(const struct plot_point *point, in
  * The tracks' points extrapolated to the truth's times; exits with 2 where a track time has no
  * truth time within most_us.
  */
-static struct plot_points
-extrapolate_to_truth_fail_if_any_time_unmatched(const struct picture_data *data, int64_t most_us)
+static struct plot_points extrapolate_to_truth(const struct picture_data *data, int64_t most_us)
 {
     struct plot_points truth = confirmed_points_by_time(&data->truth);
     struct plot_points tracks = confirmed_points_by_time(&data->tracks);
     struct alignment_times truth_times = strided_view_of_point_times(&truth),
                            track_times = strided_view_of_point_times(&tracks);
-    size_t unmatched = alignment_find_first_track_without_truth(track_times, truth_times, most_us);
+    size_t unmatched = alignment_find_unmatched(track_times, truth_times, most_us);
     if (unmatched < tracks.count) {
         alignment_fail_unmatched(tracks.list[unmatched].table, tracks.list[unmatched].row, most_us);
     }
-    struct alignment alignment =
-        alignment_list_track_rows_at_truth_times(track_times, truth_times, most_us);
+    struct alignment alignment = alignment_list_rows(track_times, truth_times, most_us);
     struct plot_points aligned = {.list = must_calloc(alignment.count + 1, sizeof *aligned.list),
                                   .count = alignment.count};
     for (size_t i = 0; i < alignment.count; i++) {
@@ -152,11 +146,10 @@ extrapolate_to_truth_fail_if_any_time_unmatched(const struct picture_data *data,
     return aligned;
 }
 
-struct plot_errors plot_errors_find_track_position_errors(const struct picture_data *data,
-                                                          const struct parameters *parameters)
+struct plot_errors plot_errors_find(const struct picture_data *data,
+                                    const struct parameters *parameters)
 {
-    struct plot_points aligned =
-        extrapolate_to_truth_fail_if_any_time_unmatched(data, alignment_tolerance_us(parameters));
+    struct plot_points aligned = extrapolate_to_truth(data, alignment_tolerance_us(parameters));
     size_t targets = data->truth.count + 1, tracks = aligned.count + 1;
     struct error_finder finder = {
         .truth = &data->truth,
@@ -185,12 +178,10 @@ void plot_errors_free(struct plot_errors *errors)
     free(errors->error_m);
 }
 
-/* ---- the picture ---- */
-
 static void put_errors(FILE *script, const struct picture_data *data,
                        const struct plot_errors *errors)
 {
-    const int64_t zero_us = picture_data_late_time_origin_or_0_us(data);
+    const int64_t zero_us = picture_data_time_origin_us(data);
     fprintf(script, "$errors << EOD\n");
     for (size_t i = 0; i < data->truth.count; i++) {
         const struct plot_point *target = &data->truth.list[i];
@@ -213,7 +204,7 @@ void plot_errors(struct picture *picture, const struct picture_data *data,
     struct plot_points one;
     size_t at = 0, index = 0, many = picture_data_count_identities(&data->truth) > PLOT_LEGEND_MAX;
     char time[80];
-    picture_data_write_time_axis_label(data, time, sizeof time);
+    picture_data_write_time_label(data, time, sizeof time);
     picture_set_title(picture, "Position errors of the tracks of %zu targets",
                       picture_data_count_identities(&data->truth));
     put_errors(picture->script, data, errors);

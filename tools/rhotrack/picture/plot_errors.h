@@ -15,12 +15,12 @@ struct plot_errors {
 };
 
 /*
- * Computes the errors: moves tracks to the truth's times (track_rows_at_truth_times.h) and pairs
+ * Computes the errors: moves tracks to the truth's times (alignment.h) and pairs
  * them with targets within gospa_cutoff_m. Exits with 2 where a track time is no truth time, or no
  * target has a track. Time: number of truth times multiplied by the number of rows.
  */
-struct plot_errors plot_errors_find_track_position_errors(const struct picture_data *data,
-                                                          const struct parameters *parameters);
+struct plot_errors plot_errors_find(const struct picture_data *data,
+                                    const struct parameters *parameters);
 void plot_errors_free(struct plot_errors *errors);
 
 void plot_errors(struct picture *picture, const struct picture_data *data,

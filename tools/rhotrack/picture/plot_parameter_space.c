@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/scans/plot_scan_reader.h"
+#include "io/scans/plot_reader.h"
 #include "picture/plan_view_map.h"
 #include "rhotrack/config.h"
 #include "rhotrack/detail/angle.h"
@@ -30,21 +30,6 @@ static double rho_of_plot_m(const struct rho_plot *plot, double theta)
     return (double)plot->x_m * cos(theta) + (double)plot->y_m * sin(theta);
 }
 
-static void find_rho_range(struct votes *votes, const struct revolutions *revolutions)
-{
-    votes->rho_min_m = INFINITY;
-    votes->rho_max_m = -INFINITY;
-    for (size_t i = 0; i < revolutions->count; i++) {
-        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
-            for (int t = 0; t < THETA_CELLS; t++) {
-                double rho_m = rho_of_plot_m(&revolutions->list[i].plots[p], theta_of_cell_rad(t));
-                votes->rho_min_m = fmin(votes->rho_min_m, rho_m - 1.0);
-                votes->rho_max_m = fmax(votes->rho_max_m, rho_m + 1.0);
-            }
-        }
-    }
-}
-
 /* Counts the plot in one rho cell for each theta cell: the cells of all lines through it. */
 static void cast_votes_of_plot(struct votes *votes, const struct rho_plot *plot)
 {
@@ -53,16 +38,6 @@ static void cast_votes_of_plot(struct votes *votes, const struct rho_plot *plot)
         int cell =
             (int)((rho_of_plot_m(plot, theta_of_cell_rad(t)) - votes->rho_min_m) * cells_per_m);
         votes->count[cell][t] = (uint16_t)(votes->count[cell][t] + 1u);
-    }
-}
-
-static void cast_all_votes(struct votes *votes, const struct revolutions *revolutions)
-{
-    find_rho_range(votes, revolutions);
-    for (size_t i = 0; i < revolutions->count; i++) {
-        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
-            cast_votes_of_plot(votes, &revolutions->list[i].plots[p]);
-        }
     }
 }
 
@@ -81,8 +56,8 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
     fprintf(script, "EOD\n");
 }
 
-static void put_theta_and_rho_of_track_lines(FILE *script, const struct plot_points *tracks,
-                                             double unit_m)
+/* Writes theta and rho of the tracks' lines. */
+static void put_track_lines(FILE *script, const struct plot_points *tracks, double unit_m)
 {
     struct plot_points one;
     size_t at = 0;
@@ -101,9 +76,8 @@ static void put_theta_and_rho_of_track_lines(FILE *script, const struct plot_poi
  * Reads the plots again as scans and returns the last ones: the table of plots does not show which
  * belong to one scan.
  */
-struct revolutions plot_parameter_space_read_last_scans(const struct picture_data *data,
-                                                        const struct parameters *parameters,
-                                                        size_t scans)
+struct revolutions plot_parameter_space_read(const struct picture_data *data,
+                                             const struct parameters *parameters, size_t scans)
 {
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
@@ -113,8 +87,8 @@ struct revolutions plot_parameter_space_read_last_scans(const struct picture_dat
                  data->plot_paths[i]);
         }
     }
-    struct plot_scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
-        data->plot_paths, data->num_plot_paths, parameters);
+    struct plot_reader *reader =
+        plot_reader_open_sensorless(data->plot_paths, data->num_plot_paths, parameters);
     struct revolutions revolutions = revolutions_read_last(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {
         num_plots += revolutions.list[i].scan.num_plots;
@@ -123,18 +97,33 @@ struct revolutions plot_parameter_space_read_last_scans(const struct picture_dat
         fail(EXIT_USAGE, "plot parameter-space: the last %zu scans have no plots",
              revolutions.count);
     }
-    plot_scan_reader_close(reader);
+    plot_reader_close(reader);
     return revolutions;
 }
 
-void plot_hough_votes_and_track_lines(struct picture *picture, const struct picture_data *data,
-                                      const struct revolutions *revolutions)
+void plot_hough_votes(struct picture *picture, const struct picture_data *data,
+                      const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
-    cast_all_votes(votes, revolutions);
+    votes->rho_min_m = INFINITY;
+    votes->rho_max_m = -INFINITY;
+    for (size_t i = 0; i < revolutions->count; i++) {
+        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
+            for (int t = 0; t < THETA_CELLS; t++) {
+                double rho_m = rho_of_plot_m(&revolutions->list[i].plots[p], theta_of_cell_rad(t));
+                votes->rho_min_m = fmin(votes->rho_min_m, rho_m - 1.0);
+                votes->rho_max_m = fmax(votes->rho_max_m, rho_m + 1.0);
+            }
+        }
+    }
+    for (size_t i = 0; i < revolutions->count; i++) {
+        for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
+            cast_votes_of_plot(votes, &revolutions->list[i].plots[p]);
+        }
+    }
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
-    put_theta_and_rho_of_track_lines(picture->script, &data->tracks, unit_m);
+    put_track_lines(picture->script, &data->tracks, unit_m);
     picture_set_title(picture, "Parameter space: the lines through the plots of the last %zu scans",
                       revolutions->count);
     fprintf(

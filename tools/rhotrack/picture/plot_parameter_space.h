@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_PLOT_PARAMETER_SPACE_H
 #define RHOTRACK_TOOL_PLOT_PARAMETER_SPACE_H
 
-#include "io/turns/sectors_merged_to_turns.h"
+#include "io/turns/merged_sectors.h"
 #include "picture/gnuplot_picture_file.h"
 #include "picture/picture_data.h"
 #include "settings/parameters.h"
@@ -17,12 +17,11 @@
  * column sensor_id all plots are sensor 0's. Exits with 2, before a picture is begun, where there
  * are no plots or rows are refused. The caller frees the result with revolutions_free.
  */
-struct revolutions plot_parameter_space_read_last_scans(const struct picture_data *data,
-                                                        const struct parameters *parameters,
-                                                        size_t scans);
+struct revolutions plot_parameter_space_read(const struct picture_data *data,
+                                             const struct parameters *parameters, size_t scans);
 
 /* Draws the votes of the scans' plots, and the lines of the tracks in data. */
-void plot_hough_votes_and_track_lines(struct picture *picture, const struct picture_data *data,
-                                      const struct revolutions *revolutions);
+void plot_hough_votes(struct picture *picture, const struct picture_data *data,
+                      const struct revolutions *revolutions);
 
 #endif

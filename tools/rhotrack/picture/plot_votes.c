@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/scans/scans_to_hough_arrays.h"
+#include "io/scans/hough_batch.h"
 #include "picture/plan_view_map.h"
 
 #define THETA_BLOCKS 270
@@ -64,9 +64,8 @@ static struct range range_with_margin(struct range range, unsigned cells)
  * Window of accumulator cells with any vote, plus a margin; `whole` holds the last picture's
  * component: of the neutrosophic method falsity, for which every candidate votes.
  */
-static struct rho_votes_picture
-window_around_all_cells_with_votes(const struct rho_hough *hough,
-                                   const struct rho_votes_picture *whole)
+static struct rho_votes_picture window_around_votes(const struct rho_hough *hough,
+                                                    const struct rho_votes_picture *whole)
 {
     struct range theta = {hough->theta_cells, 0}, rho = {hough->rho_cells, 0};
 
@@ -102,7 +101,7 @@ static void compute_vote_pictures(struct plot_votes *votes, const struct rho_hou
                                       .votes = votes->of[0]};
     must_succeed(rho_hough_plane(hough, points, pictures[votes->count - 1].component, &whole),
                  "hough");
-    struct rho_votes_picture plane = window_around_all_cells_with_votes(hough, &whole);
+    struct rho_votes_picture plane = window_around_votes(hough, &whole);
     for (unsigned i = 0; i < votes->count; i++) {
         plane.votes = votes->of[i];
         must_succeed(rho_hough_plane(hough, points, pictures[i].component, &plane), "hough");
@@ -130,7 +129,7 @@ struct plot_votes *plot_votes_compute_pictures(enum method method,
     method_widen_cells_to_range(&fitted, batch.range_m);
     struct rho_hough_config config = method_hough_config(method, &fitted, batch.range_m);
 
-    hough_batch_report_plots_beyond_range(&batch);
+    hough_batch_report_beyond(&batch);
     votes->method = method;
     votes->count = method == METHOD_NHT ? PICTURES : 1;
     compute_vote_pictures(votes, &config, &points);

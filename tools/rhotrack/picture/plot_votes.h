@@ -6,9 +6,9 @@
 #ifndef RHOTRACK_TOOL_PLOT_VOTES_H
 #define RHOTRACK_TOOL_PLOT_VOTES_H
 
-#include "io/turns/sectors_merged_to_turns.h"
+#include "io/turns/merged_sectors.h"
 #include "picture/gnuplot_picture_file.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 /* The votes to be drawn, computed before the picture is begun so that errors leave no file. */
 struct plot_votes;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "settings/initiation_method_names_and_configs.h"
+#include "settings/initiation_methods.h"
 
 #define WINDOWS_MAX 256 /* windows of a sensor, or of two that share one */
 
@@ -75,12 +75,12 @@ void pipeline_options_to_parameters(struct parameters *parameters,
         fail(EXIT_USAGE, "gate none, which draws plots at random, is only for `maintain`; use "
                          "best, hough or nearest");
     }
-    if (method_of_starting_tracks_from_plots(parameters) != METHOD_KERNEL) {
+    if (track_start_method(parameters) != METHOD_KERNEL) {
         struct rho_paper_starts_config customary;
 
         rho_paper_starts_config_default(&customary, RHO_HOUGH_NHT_C);
         parameters_suggest(parameters, PARAMETER_SCANS, customary.scans);
-        method_suggest_parameters(method_of_starting_tracks_from_plots(parameters), parameters);
+        method_suggest_parameters(track_start_method(parameters), parameters);
     }
 }
 
@@ -195,8 +195,8 @@ struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, 
     return pipeline->initiator;
 }
 
-struct rho_initiator *pipeline_initiator_of_sensor_or_radar_pair(struct pipeline *pipeline,
-                                                                 const struct rho_scan *scan)
+struct rho_initiator *pipeline_initiator_of_sensor(struct pipeline *pipeline,
+                                                   const struct rho_scan *scan)
 {
     return pipeline_find_or_add_initiator(pipeline, pipeline->has_pairs
                                                         ? pipeline_window_sensor_id(pipeline, scan)
@@ -211,13 +211,12 @@ static void open_paper_starts_if_chosen(struct pipeline *pipeline,
     struct rho_paper_starts_config config;
     const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
 
-    if (method_of_starting_tracks_from_plots(parameters) == METHOD_KERNEL) {
+    if (track_start_method(parameters) == METHOD_KERNEL) {
         return;
     }
     method_widen_cells_to_range(&fitted, range_m);
     config = (struct rho_paper_starts_config){
-        .hough =
-            method_hough_config(method_of_starting_tracks_from_plots(parameters), &fitted, range_m),
+        .hough = method_hough_config(track_start_method(parameters), &fitted, range_m),
         .scans = (uint16_t)parameters->value[PARAMETER_SCANS],
         .scans_min = (uint16_t)parameters->value[PARAMETER_MIN_SCANS]};
     if (!pipeline->starts) {
@@ -372,7 +371,7 @@ void pipeline_count_tracks_in_zones(struct pipeline *pipeline)
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
 {
     struct rho_initiator *initiator =
-        pipeline->starts ? NULL : pipeline_initiator_of_sensor_or_radar_pair(pipeline, scan);
+        pipeline->starts ? NULL : pipeline_initiator_of_sensor(pipeline, scan);
 
     must_succeed(rho_tracker_step(pipeline->tracker, initiator, scan, pipeline->report), "step");
     pipeline_start_paper_tracks(pipeline, scan, NULL);

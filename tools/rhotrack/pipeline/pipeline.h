@@ -85,8 +85,8 @@ struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, 
 int32_t pipeline_window_sensor_id(const struct pipeline *pipeline, const struct rho_scan *scan);
 
 /* The initiator for a scan's plots; call after the sensor was described, before the scan's step. */
-struct rho_initiator *pipeline_initiator_of_sensor_or_radar_pair(struct pipeline *pipeline,
-                                                                 const struct rho_scan *scan);
+struct rho_initiator *pipeline_initiator_of_sensor(struct pipeline *pipeline,
+                                                   const struct rho_scan *scan);
 
 /* Drops the batch of bearings of passive-paper, after a change of the clock. */
 void pipeline_reopen_passive_paper(struct pipeline *pipeline);

@@ -180,9 +180,8 @@ static const char *snapshot_refusal_reason(enum rho_status status)
  * Adds the initiators that a snapshot has; false where a pipeline with these parameters cannot have
  * them.
  */
-static bool add_empty_initiators_to_match_snapshot(struct pipeline *pipeline,
-                                                   const struct rho_snapshot_part *parts,
-                                                   unsigned num_parts)
+static bool add_missing_initiators(struct pipeline *pipeline, const struct rho_snapshot_part *parts,
+                                   unsigned num_parts)
 {
     const unsigned others = OTHERS + (pipeline->learning ? 1 : 0);
     const bool has_sensors = parts[0].id == OF_SENSORS || parts[0].id == OF_PAIRS;
@@ -204,10 +203,8 @@ static bool is_same_memory(const void *one, const void *other, size_t size)
  * Loads a snapshot into an opened pipeline, and takes settings that an operator had changed into
  * the parameters. *is_other: the snapshot was made with other parameters.
  */
-static enum rho_status load_snapshot_and_compare_parameters(struct pipeline *pipeline,
-                                                            struct parameters *parameters,
-                                                            const uint8_t *image, size_t size,
-                                                            bool *is_other)
+static enum rho_status load_snapshot(struct pipeline *pipeline, struct parameters *parameters,
+                                     const uint8_t *image, size_t size, bool *is_other)
 {
     const struct rho_passive_config search = pipeline->passive->config;
     const struct rho_settings told = pipeline->told;
@@ -254,11 +251,8 @@ static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipe
     memset(fresh.report, 0, sizeof *fresh.report);
     pipeline_open(&fresh, parameters);
     pipeline_open_passive(&fresh, parameters);
-    is_other =
-        num_parts < OTHERS + 1 || !add_empty_initiators_to_match_snapshot(&fresh, parts, num_parts);
-    status = is_other
-                 ? RHO_OK
-                 : load_snapshot_and_compare_parameters(&fresh, &changed, image, size, &is_other);
+    is_other = num_parts < OTHERS + 1 || !add_missing_initiators(&fresh, parts, num_parts);
+    status = is_other ? RHO_OK : load_snapshot(&fresh, &changed, image, size, &is_other);
     free(parts);
     if (is_other || status != RHO_OK) {
         pipeline_free(&fresh);

@@ -52,7 +52,7 @@ void cholesky_solve(const double *factor, size_t n, double *v)
     }
 }
 
-double cholesky_inverse_diagonal_element(const double *factor, size_t n, size_t i, double *work)
+double cholesky_inverse_diagonal(const double *factor, size_t n, size_t i, double *work)
 {
     double sum = 0.0;
 

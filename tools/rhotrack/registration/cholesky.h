@@ -20,6 +20,6 @@ void cholesky_solve_lower(const double *factor, size_t n, double *v);
 void cholesky_solve(const double *factor, size_t n, double *v);
 
 /* Element (i, i) of (L L')^-1; work has room for n numbers. */
-double cholesky_inverse_diagonal_element(const double *factor, size_t n, size_t i, double *work);
+double cholesky_inverse_diagonal(const double *factor, size_t n, size_t i, double *work);
 
 #endif

@@ -5,15 +5,13 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 
 /* largest rms distance of two radars' tracks of one target before biases are corrected */
 #define FIRST_GATE_M 3000.0
 #define ROUNDS_MAX 10
 /* a bias counts as known if its sigma is at most this share of a plot's noise */
 #define KNOWN_SHARE 0.5
-
-/* ---- data ---- */
 
 struct register_data *register_start(const struct parameters *parameters)
 {
@@ -24,7 +22,7 @@ struct register_data *register_start(const struct parameters *parameters)
 }
 
 /* Index of the radar with this sensor_id, or of the place at which it is to be inserted. */
-static size_t index_or_insertion_place_of_radar(const struct register_data *data, int32_t sensor_id)
+static size_t find_radar_index(const struct register_data *data, int32_t sensor_id)
 {
     size_t at = 0;
 
@@ -37,7 +35,7 @@ static size_t index_or_insertion_place_of_radar(const struct register_data *data
 /* The radar with this sensor_id, or NULL where no scan of it was added. */
 static struct radar_data *find_radar(const struct register_data *data, int32_t sensor_id)
 {
-    size_t at = index_or_insertion_place_of_radar(data, sensor_id);
+    size_t at = find_radar_index(data, sensor_id);
 
     return at < data->num_radars && data->radars[at].sensor.sensor_id == sensor_id
                ? &data->radars[at]
@@ -47,7 +45,7 @@ static struct radar_data *find_radar(const struct register_data *data, int32_t s
 static struct radar_data *find_or_add_radar(struct register_data *data,
                                             const struct rho_sensor *sensor)
 {
-    size_t at = index_or_insertion_place_of_radar(data, sensor->sensor_id);
+    size_t at = find_radar_index(data, sensor->sensor_id);
 
     if (find_radar(data, sensor->sensor_id)) {
         return &data->radars[at];
@@ -149,8 +147,6 @@ void register_free(struct register_data *data)
     free(data);
 }
 
-/* ---- the estimate ---- */
-
 /*
  * The radar that the parameters name, else the first one with plots: the time of a radar without
  * plots says nothing of the others' times.
@@ -251,10 +247,9 @@ struct register_result register_estimate_biases(struct register_data *data,
     struct register_result result;
 
     register_track_all_radars(data, pipeline);
-    register_match_tracks_tell_if_changed(data, FIRST_GATE_M, 0.0);
+    register_update_matches(data, FIRST_GATE_M, 0.0);
     solution = register_solve_biases(data, reference);
-    while (rounds < ROUNDS_MAX &&
-           register_match_tracks_tell_if_changed(data, FIRST_GATE_M, solution.misfit)) {
+    while (rounds < ROUNDS_MAX && register_update_matches(data, FIRST_GATE_M, solution.misfit)) {
         bias_solution_free(&solution);
         solution = register_solve_biases(data, reference);
         rounds++;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
 
 /* longest interval between two plots of a track in which its place is interpolated */
 #define GAP_MAX_S 35.0
@@ -41,15 +41,12 @@ struct pair {
     double distance;
 };
 
-/* ---- one pair ---- */
-
 /*
  * Makes a course of a track: its plots corrected by the biases, with variances for the given ratio
  * of actual noise to sigmas.
  */
-static void make_course_of_bias_corrected_plots(const struct register_data *data,
-                                                const struct radar_track *track,
-                                                double noise_factor, struct course *course)
+static void make_course(const struct register_data *data, const struct radar_track *track,
+                        double noise_factor, struct course *course)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
@@ -98,9 +95,8 @@ static double mahalanobis2(const double covariance[3], double dx_m, double dy_m)
  * Compares plot i of `of` with the place interpolated between plots k and k + 1 of `between`, and
  * adds the squared distances to sum.
  */
-static void add_squared_distance_of_plot_to_course(const struct course *of, size_t i,
-                                                   const struct course *between, size_t k,
-                                                   struct comparison *sum)
+static void add_squared_distance(const struct course *of, size_t i, const struct course *between,
+                                 size_t k, struct comparison *sum)
 {
     const struct corrected *from = &between->at[k], *to = &between->at[k + 1], *at = &of->at[i];
     double share = (at->t_s - from->t_s) / (to->t_s - from->t_s);
@@ -116,8 +112,9 @@ static void add_squared_distance_of_plot_to_course(const struct course *of, size
     sum->sum_d2 += fmin(mahalanobis2(covariance, dx_m, dy_m), FAR_D2);
 }
 
-static struct comparison sum_squared_distances_of_plots_to_course(const struct course *of,
-                                                                  const struct course *between)
+/* Squared distances of one track's plots to the course of another. */
+static struct comparison sum_squared_distances(const struct course *of,
+                                               const struct course *between)
 {
     struct comparison sum = {0};
     size_t k = 0;
@@ -131,7 +128,7 @@ static struct comparison sum_squared_distances_of_plots_to_course(const struct c
         if (k + 1 < between->count && between->at[k].t_s <= t_s &&
             between->at[k + 1].t_s > between->at[k].t_s &&
             between->at[k + 1].t_s - between->at[k].t_s <= GAP_MAX_S) {
-            add_squared_distance_of_plot_to_course(of, i, between, k, &sum);
+            add_squared_distance(of, i, between, k, &sum);
             if (sum.sum_m2 > FAR_M * FAR_M) {
                 break;
             }
@@ -154,8 +151,8 @@ static bool courses_overlap_in_time(const struct course *one, const struct cours
 static bool are_courses_of_one_target(const struct course *one, const struct course *other,
                                       double gate_m, double misfit, double *mean_distance2)
 {
-    struct comparison sum = sum_squared_distances_of_plots_to_course(one, other),
-                      back = sum_squared_distances_of_plots_to_course(other, one);
+    struct comparison sum = sum_squared_distances(one, other),
+                      back = sum_squared_distances(other, one);
 
     sum = back.count > sum.count ? back : sum;
     if (sum.count < COMPARISONS_MIN) {
@@ -171,8 +168,6 @@ static bool are_courses_of_one_target(const struct course *one, const struct cou
     }
     return true;
 }
-
-/* ---- all pairs ---- */
 
 struct pairs {
     size_t count, room;
@@ -242,8 +237,7 @@ static void join_targets(size_t *targets, size_t num_tracks, size_t one, size_t 
 }
 
 /* Stores the tracks' target numbers; true where any changed. */
-static bool store_track_targets_and_tell_if_changed(struct register_data *data,
-                                                    const size_t *targets)
+static bool store_track_targets(struct register_data *data, const size_t *targets)
 {
     bool is_changed = false;
 
@@ -254,7 +248,7 @@ static bool store_track_targets_and_tell_if_changed(struct register_data *data,
     return is_changed;
 }
 
-bool register_match_tracks_tell_if_changed(struct register_data *data, double gate_m, double misfit)
+bool register_update_matches(struct register_data *data, double gate_m, double misfit)
 {
     struct course *courses = must_calloc(data->num_tracks + 1, sizeof *courses);
     size_t *targets = must_calloc(data->num_tracks + 1, sizeof *targets);
@@ -263,7 +257,7 @@ bool register_match_tracks_tell_if_changed(struct register_data *data, double ga
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         targets[i] = i;
-        make_course_of_bias_corrected_plots(data, &data->tracks[i], fmax(1.0, misfit), &courses[i]);
+        make_course(data, &data->tracks[i], fmax(1.0, misfit), &courses[i]);
     }
     pairs = find_matching_pairs(data, courses, gate_m, misfit);
     for (size_t i = 0; i < pairs.count; i++) {
@@ -273,7 +267,7 @@ bool register_match_tracks_tell_if_changed(struct register_data *data, double ga
             join_targets(targets, data->num_tracks, one, other);
         }
     }
-    is_changed = store_track_targets_and_tell_if_changed(data, targets);
+    is_changed = store_track_targets(data, targets);
     for (size_t i = 0; i < data->num_tracks; i++) {
         free_course(&courses[i]);
     }

@@ -36,8 +36,6 @@ bool register_knows_any_bias(const struct register_result *result)
     return false;
 }
 
-/* ---- table ---- */
-
 static void add_bias_row(struct text_table *table, const struct register_result *result,
                          size_t radar)
 {
@@ -53,9 +51,8 @@ static void add_bias_row(struct text_table *table, const struct register_result 
         double value = bias->is_known || is_taken ? factor * bias->value : NAN;
         double sigma = bias->is_known && !is_taken ? factor * bias->sigma : NAN;
 
-        cells[2 * kind] = text_table_number_or_dash_for_nan(texts[2 * kind], digits[kind], value);
-        cells[2 * kind + 1] =
-            text_table_number_or_dash_for_nan(texts[2 * kind + 1], digits[kind], sigma);
+        cells[2 * kind] = text_table_number_or_dash(texts[2 * kind], digits[kind], value);
+        cells[2 * kind + 1] = text_table_number_or_dash(texts[2 * kind + 1], digits[kind], sigma);
     }
     text_table_add_row(table, "%d|%zu|%zu|%zu|%s|%s|%s|%s|%s|%s", (int)of->sensor_id, of->plots,
                        of->tracks, of->common_plots, cells[0], cells[1], cells[2], cells[3],
@@ -110,8 +107,6 @@ void register_print(const struct register_result *result, FILE *out)
     text_table_free(&table);
 }
 
-/* ---- JSON ---- */
-
 static cJSON *radar_biases_json(const struct register_result *result, size_t radar)
 {
     const struct register_radar *of = &result->radars[radar];
@@ -151,8 +146,6 @@ void register_print_json(const struct register_result *result, uint64_t rows_ski
     cJSON_AddNumberToObject(object, "rows_skipped", (double)rows_skipped);
     json_print_and_delete(object);
 }
-
-/* ---- INI ---- */
 
 void register_write_ini(const struct register_result *result, const char *path)
 {

@@ -6,8 +6,8 @@
 
 #include "base/common.h"
 #include "registration/cholesky.h"
-#include "registration/register_path_segments_and_equations.h"
-#include "registration/register_shared_data_and_plot_correction.h"
+#include "registration/register_data.h"
+#include "registration/register_equations.h"
 
 /*
  * Prior sigmas of the biases, the largest biases that a sensor may have (types.h): they keep biases
@@ -32,12 +32,6 @@ static struct normal_equations alloc_normal_equations(const struct register_data
     normal.matrix = must_calloc(normal.num * normal.num, sizeof *normal.matrix);
     normal.right = must_calloc(normal.num, sizeof *normal.right);
     return normal;
-}
-
-static void free_normal_equations(struct normal_equations *normal)
-{
-    free(normal->matrix);
-    free(normal->right);
 }
 
 /* Fixes a bias at its present value: its row and column become those of the identity. */
@@ -121,8 +115,6 @@ static void iterate_biases(struct register_data *data, struct segments *segments
     }
 }
 
-/* ---- segments that are no parabolas ---- */
-
 static int by_value(const void *a, const void *b)
 {
     double one = *(const double *)a, other = *(const double *)b;
@@ -171,8 +163,6 @@ static bool leave_out_misfit_segments(struct segments *segments)
     return is_changed;
 }
 
-/* ---- result ---- */
-
 static void summarise_segments(const struct segments *segments, struct solution *solution)
 {
     double chi2 = 0.0, freedom = 0.0;
@@ -214,13 +204,13 @@ struct solution register_solve_biases(struct register_data *data, size_t referen
     solution.sigma = must_calloc(normal.num + 1, sizeof *solution.sigma);
     summarise_segments(&segments, &solution);
     for (size_t i = 0; i < normal.num; i++) {
-        solution.sigma[i] =
-            solution.misfit * unit[i % NUM_REGISTER_KINDS] *
-            sqrt(cholesky_inverse_diagonal_element(normal.matrix, normal.num, i, work));
+        solution.sigma[i] = solution.misfit * unit[i % NUM_REGISTER_KINDS] *
+                            sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
     }
     solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
     free(work);
-    free_normal_equations(&normal);
+    free(normal.matrix);
+    free(normal.right);
     segments_free(&segments);
     return solution;
 }

@@ -16,8 +16,6 @@
 #define WHAT_BYTES 512
 #define KEY_BYTES 64
 
-/* ---- where a value stands in the text ---- */
-
 /* The functions below scan text that has been parsed as valid JSON. */
 static const char *skip_space(const char *at)
 {
@@ -141,8 +139,6 @@ static size_t line_number_at(const char *text, const char *at)
     return line;
 }
 
-/* ---- error messages ---- */
-
 static void format_place(const struct json_place *place, char text[PLACE_BYTES])
 {
     const struct json_place *chain[DEPTH_MAX];
@@ -197,8 +193,6 @@ void json_fail_key(const struct json_object *object, const char *key, const char
     fail_at_place(&place, what);
 }
 
-/* ---- the file ---- */
-
 struct json_file json_open(const char *name, const char *text, size_t length)
 {
     struct json_file file = {.name = name, .text = text};
@@ -232,8 +226,6 @@ void json_close(struct json_file *file)
     cJSON_Delete(file->root);
     file->root = NULL;
 }
-
-/* ---- changes ---- */
 
 /*
  * Parses one step of a path, `key`, `[3]` or `3`, and moves *path behind it; *index is -1 for a
@@ -334,8 +326,6 @@ void json_assign_by_path(struct json_file *file, const char *assignment)
         fail_unknown_path(assignment, item, key);
     }
 }
-
-/* ---- objects ---- */
 
 static const char *json_kind_name(const cJSON *item)
 {
@@ -585,8 +575,6 @@ double json_element_number(const struct json_list *list, size_t index, double mi
 
     return checked_number(&place, cJSON_GetArrayItem(list->item, (int)index), min, max);
 }
-
-/* ---- unknown keys ---- */
 
 /* Object whose known keys hinted_key_name gives: name_hint_nearest passes no context. */
 static const struct json_object *hinted_object;

@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "base/portable_math.h"
-#include "scene/scene_objects_seen_repeatedly.h"
+#include "scene/scene_persistent.h"
 
 #define RANGE_LEAST_M 0.01 /* shortest range that a plot gets: the last digit in the file */
 /*
@@ -15,8 +15,6 @@
  */
 #define SIGHTING_ITERATIONS 16
 #define NEXT_PASS_TURNS 0.5 /* turns after a sighting before the same object can be seen again */
-
-/* ---- where sensors look ---- */
 
 static double antenna_turn_sign(const struct scene_sensor *sensor)
 {
@@ -89,8 +87,6 @@ bool scene_covers_place(const struct scene *scene, double x_m, double y_m)
     return false;
 }
 
-/* ---- events ---- */
-
 static bool is_event_active(const struct scene_event *event, size_t sensor, double t_s)
 {
     return (event->sensors >> sensor & 1) && t_s >= event->from_s && t_s < event->until_s;
@@ -126,8 +122,6 @@ static bool is_scan_silenced_by_outage(const struct scene *scene, size_t sensor,
     }
     return false;
 }
-
-/* ---- plots of one sensor ---- */
 
 /* State of a target at the time at which the sensor's beam passes it. */
 struct sighting {
@@ -179,8 +173,7 @@ static double pd_at_range(const struct scene_curve *curve, double range_m)
 }
 
 /* Stores a plot: assigns its scan, limits range and azimuth, and folds an ambiguous range rate. */
-static void assign_scan_fold_range_rate_and_append_plot(struct observer *observer,
-                                                        struct scene_plot plot)
+static void append_plot_to_scan(struct observer *observer, struct scene_plot plot)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double scans = (plot.t_s - sensor->start_s) / sensor->turn_s * (double)sensor->sectors;
@@ -236,8 +229,6 @@ static struct scene_plot noisy_plot_of_sighting(const struct scene_sensor *senso
     return plot;
 }
 
-/* ---- passes of the beam over moving objects ---- */
-
 /*
  * Finds the time after after_s at which the antenna points to the object, and its state then.
  * False: the object does not exist then.
@@ -247,7 +238,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
 {
     const struct scene_sensor *sensor = observer->sensor;
     double at_s = after_s;
-    bool is_there = mover_motion_folded_to_unambiguous_range_at(mover, sensor, at_s, &sighting->at);
+    bool is_there = folded_motion_at(mover, sensor, at_s, &sighting->at);
 
     for (int i = 0; sensor->turns && i < SIGHTING_ITERATIONS; i++) {
         double azimuth_rad =
@@ -256,7 +247,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
             turn_share_until_azimuth(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
 
         at_s += (i > 0 && ahead > 0.5 ? ahead - 1.0 : ahead) * sensor->turn_s;
-        is_there = mover_motion_folded_to_unambiguous_range_at(mover, sensor, at_s, &sighting->at);
+        is_there = folded_motion_at(mover, sensor, at_s, &sighting->at);
     }
     sighting->t_s = at_s;
     sighting->range_m =
@@ -305,8 +296,6 @@ static void for_each_detectable_sighting(struct observer *observer, const struct
         }
     }
 }
-
-/* ---- targets ---- */
 
 static struct target_fades draw_fades_of_target(const struct scene *scene,
                                                 const struct scene_path *path, uint64_t target,
@@ -396,7 +385,7 @@ static void add_split_plots(struct observer *observer, const struct sighting *si
                 random_in_span(&random, event->azimuth_rad);
             second.x_m += sensor->sigma_m * random_in_span(&random, event->range_sigmas);
             second.y_m += sensor->sigma_m * random_in_span(&random, event->azimuth_sigmas);
-            assign_scan_fold_range_rate_and_append_plot(observer, second);
+            append_plot_to_scan(observer, second);
         }
     }
 }
@@ -421,8 +410,7 @@ static void add_image_plots(struct observer *observer, const struct sighting *si
         image.target_id = -1;
         image.range_m = portable_hypot(image.at.x_m - sensor->x_m, image.at.y_m - sensor->y_m);
         image.azimuth_rad = portable_atan2(image.at.y_m - sensor->y_m, image.at.x_m - sensor->x_m);
-        assign_scan_fold_range_rate_and_append_plot(
-            observer, noisy_plot_of_sighting(sensor, &image, &random));
+        append_plot_to_scan(observer, noisy_plot_of_sighting(sensor, &image, &random));
     }
 }
 
@@ -455,7 +443,7 @@ static bool are_unresolved(const struct scene_sensor *sensor, const struct sight
  * Groups sightings, sorted by time, that the sensor does not resolve: pairwise unresolved ones get
  * one group number.
  */
-static void number_groups_of_unresolved_sightings(struct observer *observer)
+static void number_unresolved_groups(struct observer *observer)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double window_s =
@@ -528,8 +516,6 @@ static struct sighting merge_sighting_group(const struct observer *observer, siz
     return middle;
 }
 
-/* ---- bodies ---- */
-
 #define HEADING_RATE_S 0.01 /* interval over which the turn rate is computed from headings */
 
 static double path_heading_rad(const struct scene_path *path, double t_s)
@@ -589,8 +575,7 @@ static void add_body_plots(struct observer *observer, const struct scene_body *b
 
         if (random_uniform(&look) < pd &&
             is_place_in_coverage(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
-            assign_scan_fold_range_rate_and_append_plot(observer,
-                                                        noisy_plot_of_sighting(sensor, &on, &look));
+            append_plot_to_scan(observer, noisy_plot_of_sighting(sensor, &on, &look));
             add_image_plots(observer, &on);
         }
     }
@@ -643,7 +628,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
         one->is_seen = random_uniform(&random) <
                        faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);
     }
-    number_groups_of_unresolved_sightings(observer);
+    number_unresolved_groups(observer);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         if (observer->sightings[i].group == i) {
             struct sighting middle = merge_sighting_group(observer, i);
@@ -651,8 +636,8 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
             random_uniform(&random); /* skip the number that decided the detection */
             if (middle.is_seen) {
-                assign_scan_fold_range_rate_and_append_plot(
-                    observer, noisy_plot_of_sighting(observer->sensor, &middle, &random));
+                append_plot_to_scan(observer,
+                                    noisy_plot_of_sighting(observer->sensor, &middle, &random));
                 add_split_plots(observer, &middle);
                 add_image_plots(observer, &middle);
             }
@@ -660,32 +645,29 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
     }
 }
 
-/* ---- clutter ---- */
-
-static void add_plot_of_persistent_clutter_object(struct observer *observer,
-                                                  const struct scene_mover *mover,
-                                                  struct sighting *sighting, uint64_t item)
+/* Adds a plot of an object of the clutter that stays from scan to scan. */
+static void add_persistent_clutter(struct observer *observer, const struct scene_mover *mover,
+                                   struct sighting *sighting, uint64_t item)
 {
     struct random random =
         scene_random_stream(observer->seed, observer->run, STREAM_CLUTTER,
                             (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
 
     if (random_uniform(&random) < mover->pd) {
-        assign_scan_fold_range_rate_and_append_plot(
-            observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
+        append_plot_to_scan(observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
     }
 }
 
-static void observe_persistent_clutter_objects(struct observer *observer,
-                                               const struct scene_run *run, size_t source)
+static void observe_persistent_clutter(struct observer *observer, const struct scene_run *run,
+                                       size_t source)
 {
     struct scene_path *paths;
     size_t count, num_paths;
-    struct scene_mover *movers = draw_persistent_clutter_objects(
-        run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
+    struct scene_mover *movers = draw_persistent_clutter(run->scene, source, run->seed, run->run,
+                                                         &count, &paths, &num_paths);
 
     for (size_t i = 0; i < count; i++) {
-        for_each_detectable_sighting(observer, &movers[i], add_plot_of_persistent_clutter_object,
+        for_each_detectable_sighting(observer, &movers[i], add_persistent_clutter,
                                      (uint64_t)source << 32 | i);
     }
     for (size_t i = 0; i < num_paths; i++) {
@@ -699,9 +681,8 @@ static void observe_persistent_clutter_objects(struct observer *observer,
  * Stores a clutter plot at the time at which the antenna passes it in this turn, unless hidden or
  * out of coverage.
  */
-static void store_clutter_plot_unless_hidden(struct observer *observer, size_t turn, double range_m,
-                                             double azimuth_rad, double x_m, double y_m,
-                                             double rate_mps)
+static void store_clutter_plot(struct observer *observer, size_t turn, double range_m,
+                               double azimuth_rad, double x_m, double y_m, double rate_mps)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double turn_s = sensor->start_s + (double)turn * sensor->turn_s, t_s = turn_s;
@@ -714,7 +695,7 @@ static void store_clutter_plot_unless_hidden(struct observer *observer, size_t t
     if (range_m > 0.0 &&
         is_free_of_outage_and_mask(observer->scene, observer->index, t_s, range_m, azimuth_rad) &&
         (sensor->is_cartesian || is_in_coverage(&sensor->coverage, range_m, azimuth_rad))) {
-        assign_scan_fold_range_rate_and_append_plot(
+        append_plot_to_scan(
             observer, (struct scene_plot){.t_s = t_s,
                                           .target_id = -1,
                                           .range_m = range_m + sensor->range_bias_m,
@@ -730,8 +711,8 @@ static void store_clutter_plot_at_xy(struct observer *observer, size_t turn, dou
 {
     double dx_m = x_m - observer->sensor->x_m, dy_m = y_m - observer->sensor->y_m;
 
-    store_clutter_plot_unless_hidden(observer, turn, portable_hypot(dx_m, dy_m),
-                                     portable_atan2(dy_m, dx_m), x_m, y_m, rate_mps);
+    store_clutter_plot(observer, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m,
+                       y_m, rate_mps);
 }
 
 /* Limits of the sector, or of the full circle; *to_rad is above *from_rad. */
@@ -766,8 +747,8 @@ static void add_uniform_clutter_plot(struct observer *observer, const struct sce
 
         azimuth_limits(clutter->within.has_sector ? &clutter->within : coverage, &from_rad,
                        &to_rad);
-        store_clutter_plot_unless_hidden(observer, turn, range_m,
-                                         random_between(random, from_rad, to_rad), 0, 0, rate_mps);
+        store_clutter_plot(observer, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
+                           rate_mps);
     }
 }
 
@@ -810,9 +791,9 @@ static void add_strobe_plot(struct observer *observer, const struct scene_clutte
         random_between(random, -observer->scene->v_max_mps, observer->scene->v_max_mps);
 
     azimuth_rad = portable_wrap_angle(azimuth_rad);
-    store_clutter_plot_unless_hidden(observer, turn, range_m, azimuth_rad,
-                                     sensor->x_m + range_m * portable_cos(azimuth_rad),
-                                     sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
+    store_clutter_plot(observer, turn, range_m, azimuth_rad,
+                       sensor->x_m + range_m * portable_cos(azimuth_rad),
+                       sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
 }
 
 /*
@@ -886,7 +867,7 @@ static double mean_clutter_plots_per_scan(const struct scene *scene,
 }
 
 /* Adds the plots of uniform, cell and strobe clutter, which are drawn anew each scan. */
-static void observe_clutter_drawn_anew_each_scan(struct observer *observer, size_t source)
+static void observe_scan_clutter(struct observer *observer, size_t source)
 {
     const struct scene_clutter *clutter = &observer->scene->clutter[source];
     double mean = mean_clutter_plots_per_scan(observer->scene, clutter);
@@ -922,14 +903,12 @@ static void observe_false_bearings(struct observer *observer)
         uint64_t count = random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
-            store_clutter_plot_unless_hidden(
+            store_clutter_plot(
                 observer, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
                 random_between(&random, sensor->false_from_rad, sensor->false_to_rad), 0, 0, 0);
         }
     }
 }
-
-/* ---- all sensors ---- */
 
 static int by_scan_and_time(const void *a, const void *b)
 {
@@ -1043,11 +1022,11 @@ static void observe_whole_run_with_sensor(struct observer *observer, const struc
             continue;
         }
         if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
-            observe_clutter_drawn_anew_each_scan(observer, i);
+            observe_scan_clutter(observer, i);
         } else if (kind == CLUTTER_ABOUT_TARGETS) {
             observe_clutter_about_targets(observer, run, i);
         } else {
-            observe_persistent_clutter_objects(observer, run, i);
+            observe_persistent_clutter(observer, run, i);
         }
     }
     if (observer->sensor->is_passive) {

@@ -9,8 +9,6 @@
 
 #define STRAIGHT_RADPS 1e-6
 
-/* ---- motion ---- */
-
 static bool has_xy_acceleration(const struct path_leg *leg)
 {
     return fabs(leg->accel_mps2[0]) + fabs(leg->accel_mps2[1]) > 0.0;

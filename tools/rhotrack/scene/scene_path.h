@@ -151,7 +151,7 @@ void flights_draw_random(const struct target_draft *draft, struct scene_paths *p
                          struct random *random);
 
 /*
- * Reads the list of targets at the key. In scene_targets_read_and_draw_paths.c, like the functions
+ * Reads the list of targets at the key. In scene_targets.c, like the functions
  * below.
  */
 struct scene_targets targets_read(struct json_object *object, const char *key);

@@ -65,8 +65,6 @@ static bool is_draft_inside_at(const struct flight_generator *generator, double 
     return is_inside_area(generator, at.x_m, at.y_m);
 }
 
-/* ---- one random flight ---- */
-
 static void start_draft_flight(struct flight_generator *generator, double start_s, double x_m,
                                double y_m, double speed_mps, double heading_rad)
 {
@@ -126,16 +124,6 @@ static double draw_signed_turn_rate(struct flight_generator *generator)
     return random_below(generator->random, 2) == 0 ? rate_radps : -rate_radps;
 }
 
-/* Adds a turn of 10 to 180 degrees to either side; small angles are more likely. */
-static void add_random_turn_to_draft(struct flight_generator *generator)
-{
-    double share = random_uniform(generator->random);
-    double angle_rad = (10.0 + 170.0 * share * share) * DEG_RAD;
-    double rate_radps = draw_signed_turn_rate(generator);
-
-    add_draft_leg_up_to_border(generator, angle_rad / fabs(rate_radps), rate_radps, 0.0);
-}
-
 /* Adds one to three rounds of a holding pattern at holding speed. */
 static void add_holding_pattern_to_draft(struct flight_generator *generator)
 {
@@ -169,7 +157,12 @@ static void add_random_manoeuvre_to_draft(struct flight_generator *generator)
     add_straight_leg_to_draft(generator, draw_uniform_between(generator, 60.0, 300.0));
     what = random_uniform(generator->random);
     if (what < 0.5) {
-        add_random_turn_to_draft(generator);
+        /* Adds a turn of 10 to 180 degrees to either side; small angles are more likely. */
+        double share = random_uniform(generator->random);
+        double angle_rad = (10.0 + 170.0 * share * share) * DEG_RAD;
+        double rate_radps = draw_signed_turn_rate(generator);
+
+        add_draft_leg_up_to_border(generator, angle_rad / fabs(rate_radps), rate_radps, 0.0);
     } else if (what < 0.65) {
         add_speed_change_to_draft(generator,
                                   draw_uniform_between(generator, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
@@ -180,8 +173,6 @@ static void add_random_manoeuvre_to_draft(struct flight_generator *generator)
         generator->is_over = true;
     }
 }
-
-/* ---- how flights begin ---- */
 
 /* Starts a flight at a random place of the border, within 60 degrees of straight inwards. */
 static void start_draft_at_border(struct flight_generator *generator, double start_s)
@@ -205,18 +196,6 @@ static void start_draft_at_border(struct flight_generator *generator, double sta
                            box_m[2] + on_m - 2.0 * width_m - (is_left ? 0.0 : height_m), speed_mps,
                            heading_rad + (is_left ? 0.0 : PORTABLE_PI));
     }
-}
-
-static void start_draft_with_take_off(struct flight_generator *generator, double start_s)
-{
-    const double *box_m = generator->item->box_m;
-    double x_m = draw_uniform_between(generator, box_m[0], box_m[1]),
-           y_m = draw_uniform_between(generator, box_m[2], box_m[3]);
-
-    start_draft_flight(generator, start_s, x_m, y_m, GROUND_MPS,
-                       draw_uniform_between(generator, -PORTABLE_PI, PORTABLE_PI));
-    add_speed_change_to_draft(generator,
-                              draw_uniform_between(generator, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
 }
 
 /*
@@ -255,8 +234,6 @@ static bool draft_take_off_to_meet(struct flight_generator *generator, double st
     return true;
 }
 
-/* ---- all flights ---- */
-
 static void start_random_draft(struct flight_generator *generator, double start_s)
 {
     double how = random_uniform(generator->random);
@@ -271,7 +248,14 @@ static void start_random_draft(struct flight_generator *generator, double start_
     if (random_uniform(generator->random) < 0.6) {
         start_draft_at_border(generator, start_s);
     } else {
-        start_draft_with_take_off(generator, start_s);
+        const double *box_m = generator->item->box_m;
+        double x_m = draw_uniform_between(generator, box_m[0], box_m[1]),
+               y_m = draw_uniform_between(generator, box_m[2], box_m[3]);
+
+        start_draft_flight(generator, start_s, x_m, y_m, GROUND_MPS,
+                           draw_uniform_between(generator, -PORTABLE_PI, PORTABLE_PI));
+        add_speed_change_to_draft(generator,
+                                  draw_uniform_between(generator, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
     }
 }
 

@@ -16,8 +16,6 @@
 #define DURATION_MAX_S 1e6
 #define PLOTS_MAX 1e5
 
-/* ---- keys common to several objects ---- */
-
 static struct scene_coverage read_coverage(struct json_object *object,
                                            struct scene_coverage otherwise)
 {
@@ -95,8 +93,6 @@ static struct scene_curve read_pd_curve(struct json_object *object, const char *
     return curve;
 }
 
-/* ---- sensors ---- */
-
 /* Reads "told", what a tracker is told about a sensor; by default the truth, except biases. */
 static void read_told_values(struct json_object *object, struct scene_sensor *sensor)
 {
@@ -168,18 +164,6 @@ static void read_antenna_motion(struct json_object *object, struct scene_sensor 
     sensor->late_s = json_read_number(object, "late_s", 0, 60, 0);
 }
 
-static void read_range_and_azimuth_resolution(struct json_object *object,
-                                              struct scene_sensor *sensor)
-{
-    sensor->resolution_m = json_read_number(object, "resolution_m", 0, 1e5, 0);
-    if (!sensor->is_cartesian) {
-        sensor->resolution_rad = json_read_number(object, "resolution_rad", 0, 1, 0);
-        if (sensor->resolution_m > 0.0) {
-            json_require_key(object, "resolution_rad");
-        }
-    }
-}
-
 static void read_radar(struct json_object *object, struct scene_sensor *sensor)
 {
     json_exclude_keys(object, "sigma_m", "sigma_range_m");
@@ -204,7 +188,13 @@ static void read_radar(struct json_object *object, struct scene_sensor *sensor)
             json_fail_key(object, "range_rate_span_mps", "must be 0 or 1 and more");
         }
     }
-    read_range_and_azimuth_resolution(object, sensor);
+    sensor->resolution_m = json_read_number(object, "resolution_m", 0, 1e5, 0);
+    if (!sensor->is_cartesian) {
+        sensor->resolution_rad = json_read_number(object, "resolution_rad", 0, 1, 0);
+        if (sensor->resolution_m > 0.0) {
+            json_require_key(object, "resolution_rad");
+        }
+    }
 }
 
 static void read_passive_sensor(struct json_object *object, struct scene_sensor *sensor)
@@ -282,8 +272,6 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
         read_and_append_sensor(scene, &one, true);
     }
 }
-
-/* ---- clutter ---- */
 
 static const struct scene_coverage anywhere = {.range_m = {0, 4 * RANGE_MAX_M}};
 
@@ -406,9 +394,8 @@ static void read_clutter_about_targets(struct json_object *object, struct scene_
  * Checks that uniformly distributed clutter has an area, and that clutter drawn anew each scan is
  * not seen by a radar that measures velocities, which it does not have.
  */
-static void check_clutter_has_area_and_velocity(const struct scene *scene,
-                                                const struct json_object *object,
-                                                const struct scene_clutter *clutter)
+static void check_clutter(const struct scene *scene, const struct json_object *object,
+                          const struct scene_clutter *clutter)
 {
     bool is_cartesian = scene->num_radars > 0 && scene->sensors[0].is_cartesian;
     bool is_drawn_anew = clutter->kind == CLUTTER_UNIFORM || clutter->kind == CLUTTER_CELL ||
@@ -446,12 +433,10 @@ static void read_and_append_clutter(struct scene *scene, struct json_object *obj
     clutter->within = anywhere;
     read_from_and_until(object, &clutter->from_s, &clutter->until_s);
     readers[clutter->kind](object, clutter);
-    check_clutter_has_area_and_velocity(scene, object, clutter);
+    check_clutter(scene, object, clutter);
     json_refuse_unknown_keys(object);
     scene->num_clutter++;
 }
-
-/* ---- events ---- */
 
 static void read_outage_event(struct json_object *object, struct scene_event *event)
 {
@@ -514,8 +499,6 @@ static void read_and_append_event(struct scene *scene, struct json_object *objec
     json_refuse_unknown_keys(object);
     scene->num_events++;
 }
-
-/* ---- tracker settings, and keys that only the lab reads ---- */
 
 /* Reads "settings": tracker parameters by the names that `rhotrack config` lists. */
 static void read_tracker_settings(struct scene *scene, struct json_object *root)
@@ -585,8 +568,6 @@ static void check_lab_keys(struct json_object *root)
         json_refuse_unknown_keys(&below);
     }
 }
-
-/* ---- the whole scene ---- */
 
 static void read_area(struct scene *scene, struct json_object *root)
 {

@@ -58,8 +58,7 @@ bool scene_reflector_image(const struct scene_reflector *reflector, double senso
     return crossing_m >= 0.0 && crossing_m <= length_m;
 }
 
-void scene_reflectors_write_told_walls_as_settings(const struct scene_reflectors *reflectors,
-                                                   FILE *file)
+void scene_reflectors_write_told(const struct scene_reflectors *reflectors, FILE *file)
 {
     const char *before = "reflectors = ";
 

@@ -35,7 +35,6 @@ bool scene_reflector_image(const struct scene_reflector *reflector, double senso
                            double sensor_y_m, const struct motion *at, struct motion *image);
 
 /* Writes the line "reflectors" of an INI file; nothing where no wall is told to the tracker. */
-void scene_reflectors_write_told_walls_as_settings(const struct scene_reflectors *reflectors,
-                                                   FILE *file);
+void scene_reflectors_write_told(const struct scene_reflectors *reflectors, FILE *file);
 
 #endif

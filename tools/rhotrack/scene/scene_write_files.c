@@ -6,8 +6,6 @@
 #include "scene/scene.h"
 #include "scene/scene_observe.h"
 
-/* ---- plots and bearings ---- */
-
 static bool any_radar_measures_range_rate(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->num_radars; i++) {
@@ -18,7 +16,7 @@ static bool any_radar_measures_range_rate(const struct scene *scene)
     return false;
 }
 
-static bool any_radar_measures_velocity_vector(const struct scene *scene)
+static bool has_velocity_radar(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->num_radars; i++) {
         if (scene->sensors[i].sigma_mps > 0.0) {
@@ -43,8 +41,8 @@ static bool needs_arrival_column(const struct scene *scene)
 }
 
 /* Writes the cells scan and received_s, which all rows of a scan share. */
-static void write_scan_number_and_arrival_cells(const struct scene_run *run,
-                                                const struct scene_scan *scan, FILE *file)
+static void write_arrival_cells(const struct scene_run *run, const struct scene_scan *scan,
+                                FILE *file)
 {
     fprintf(file, ",%zu", scan->number + 1);
     if (needs_arrival_column(run->scene)) {
@@ -53,7 +51,7 @@ static void write_scan_number_and_arrival_cells(const struct scene_run *run,
 }
 
 /* Writes the last cell of a row, target_id, and ends the line. */
-static void end_row_with_target_id_or_minus_1(int target_id, FILE *file)
+static void end_row_with_target_id(int target_id, FILE *file)
 {
     fprintf(file, ",%d\n", target_id);
 }
@@ -68,7 +66,7 @@ static void write_polar_scan(const struct scene_run *run, const struct scene_sca
              scan->from_rad, scan->to_rad);
     fprintf(file, "%.6f,%d,,%s%s", scan->end_s + sensor->time_bias_s, sensor->sensor_id, no_rate,
             place);
-    write_scan_number_and_arrival_cells(run, scan, file);
+    write_arrival_cells(run, scan, file);
     fprintf(file, ",\n");
     for (size_t i = 0; i < scan->num_plots; i++) {
         const struct scene_plot *plot = &scan->plots[i];
@@ -80,8 +78,8 @@ static void write_polar_scan(const struct scene_run *run, const struct scene_sca
         } else {
             fprintf(file, "%s%s", no_rate, place);
         }
-        write_scan_number_and_arrival_cells(run, scan, file);
-        end_row_with_target_id_or_minus_1(plot->target_id, file);
+        write_arrival_cells(run, scan, file);
+        end_row_with_target_id(plot->target_id, file);
     }
 }
 
@@ -89,14 +87,13 @@ static void write_cartesian_scan(const struct scene_run *run, const struct scene
                                  FILE *file)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
-    bool has_height = run->scene->has_heights,
-         has_velocity = any_radar_measures_velocity_vector(run->scene);
+    bool has_height = run->scene->has_heights, has_velocity = has_velocity_radar(run->scene);
 
     fprintf(file, "%.6f,%d,,%s,%s", scan->end_s, sensor->sensor_id, has_height ? "," : "",
             !has_velocity ? ""
             : has_height  ? ",,,,"
                           : ",,,");
-    write_scan_number_and_arrival_cells(run, scan, file);
+    write_arrival_cells(run, scan, file);
     fprintf(file, ",\n");
     for (size_t i = 0; i < scan->num_plots; i++) {
         const struct scene_plot *plot = &scan->plots[i];
@@ -115,8 +112,8 @@ static void write_cartesian_scan(const struct scene_run *run, const struct scene
         } else if (has_velocity) {
             fprintf(file, has_height ? ",,,," : ",,,");
         }
-        write_scan_number_and_arrival_cells(run, scan, file);
-        end_row_with_target_id_or_minus_1(plot->target_id, file);
+        write_arrival_cells(run, scan, file);
+        end_row_with_target_id(plot->target_id, file);
     }
 }
 
@@ -134,9 +131,9 @@ static void write_plots_file(const struct scene_run *run, const char *folder)
                                 "sector_from_rad,sector_to_rad";
 
     snprintf(cartesian, sizeof cartesian, "x_m,y_m%s,sigma_m%s", scene->has_heights ? ",z_m" : "",
-             !any_radar_measures_velocity_vector(scene) ? ""
-             : scene->has_heights                       ? ",vx_mps,vy_mps,vz_mps,sigma_mps"
-                                                        : ",vx_mps,vy_mps,sigma_mps");
+             !has_velocity_radar(scene) ? ""
+             : scene->has_heights       ? ",vx_mps,vy_mps,vz_mps,sigma_mps"
+                                        : ",vx_mps,vy_mps,sigma_mps");
     fprintf(output.file, "t_s,sensor_id,%s,scan%s,target_id\n", columns,
             needs_arrival_column(scene) ? ",received_s" : "");
     for (size_t i = 0; i < run->num_scans; i++) {
@@ -167,12 +164,12 @@ static void write_bearing_scan(const struct scene_run *run, const struct scene_s
     for (size_t i = 0; i < scan->num_plots; i++) {
         fprintf(file, "%.6f,%s,%.8f", scan->plots[i].t_s + sensor->time_bias_s, place,
                 scan->plots[i].azimuth_rad);
-        write_scan_number_and_arrival_cells(run, scan, file);
-        end_row_with_target_id_or_minus_1(scan->plots[i].target_id, file);
+        write_arrival_cells(run, scan, file);
+        end_row_with_target_id(scan->plots[i].target_id, file);
     }
     if (scan->num_plots == 0) {
         fprintf(file, "%.6f,%s,", scan->end_s + sensor->time_bias_s, place);
-        write_scan_number_and_arrival_cells(run, scan, file);
+        write_arrival_cells(run, scan, file);
         fprintf(file, ",\n");
     }
 }
@@ -193,8 +190,6 @@ static void write_bearings_file(const struct scene_run *run, const char *folder)
     free(path);
 }
 
-/* ---- truth ---- */
-
 static int by_int64(const void *a, const void *b)
 {
     const int64_t *one = a, *other = b;
@@ -206,7 +201,7 @@ static int by_int64(const void *a, const void *b)
  * Lists the end times of all scans in whole microseconds, sorted and without repetition, in new
  * memory.
  */
-static int64_t *list_distinct_scan_end_times_us(const struct scene_run *run, size_t *count)
+static int64_t *list_scan_ends_us(const struct scene_run *run, size_t *count)
 {
     int64_t *times_us = must_calloc(run->num_scans + 1, sizeof *times_us);
 
@@ -239,7 +234,7 @@ static void write_truth_and_paths_files(const struct scene_run *run, const char 
     char *path = path_join(folder, "truth.csv"), *all_path = path_join(folder, "paths.csv");
     struct output truth = output_open(path), all = output_open(all_path);
     size_t num_times;
-    int64_t *times_us = list_distinct_scan_end_times_us(run, &num_times);
+    int64_t *times_us = list_scan_ends_us(run, &num_times);
 
     const bool has_bodies = scene_has_bodies(run->scene);
     const char *columns = run->scene->has_heights ? "t_s,target_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps"
@@ -284,8 +279,6 @@ static void write_truth_and_paths_files(const struct scene_run *run, const char 
     free(path);
     free(all_path);
 }
-
-/* ---- settings for the tracker ---- */
 
 static void write_sensor_settings(const struct scene_sensor *sensor, FILE *file)
 {
@@ -347,7 +340,7 @@ static void write_settings_file(const struct scene *scene, const char *scene_nam
         fprintf(output.file, "area_y_min_m = %.3f\narea_y_max_m = %.3f\n", scene->area_m[2],
                 scene->area_m[3]);
     }
-    scene_reflectors_write_told_walls_as_settings(&scene->reflectors, output.file);
+    scene_reflectors_write_told(&scene->reflectors, output.file);
     for (size_t i = 0; i < scene->num_sensors; i++) {
         if (!scene->sensors[i].is_cartesian) {
             write_sensor_settings(&scene->sensors[i], output.file);

@@ -8,7 +8,7 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "base/number_and_time_parsing.h"
+#include "base/parse.h"
 
 static const struct parameter_text texts[NUM_PARAMETERS] = {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text)                          \
@@ -117,8 +117,6 @@ const char *parameters_source_name(enum parameter_source source)
 
     return names[source];
 }
-
-/* ---- One assignment ---- */
 
 static const char *parameter_name_at(size_t index)
 {
@@ -456,8 +454,6 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
     return true;
 }
 
-/* ---- Values ---- */
-
 void parameters_set_defaults(struct parameters *parameters)
 {
     memset(parameters, 0, sizeof *parameters);
@@ -530,8 +526,6 @@ double parameters_value_of_sensor(const struct parameters *parameters, int32_t s
 
     return sensor && sensor->source[id] != SOURCE_UNSET ? sensor->value[id] : otherwise;
 }
-
-/* ---- What only holds together ---- */
 
 static void check_parameter_below(const struct parameters *parameters, enum parameter_id low,
                                   enum parameter_id high)

@@ -351,16 +351,15 @@ struct local_frame *parameters_open_local_frame(const struct parameters *paramet
 extern const char parameters_no_origin[];
 
 /* Gets a sensor's latitude, longitude and altitude; false where its place was not given so. */
-bool parameters_geodetic_place_of_sensor(const struct parameters *parameters, int32_t sensor_id,
-                                         double geodetic[3]);
+bool parameters_sensor_geodetic(const struct parameters *parameters, int32_t sensor_id,
+                                double geodetic[3]);
 
 /*
  * Angle to add to a sensor's azimuths for azimuths in the local frame
- * (local_frame_meridian_convergence_rad); 0 for sensors that are not placed by latitude and
+ * (local_frame_convergence_rad); 0 for sensors that are not placed by latitude and
  * longitude.
  */
-double parameters_sensor_meridian_convergence_rad(const struct parameters *parameters,
-                                                  int32_t sensor_id);
+double parameters_convergence_rad(const struct parameters *parameters, int32_t sensor_id);
 
 bool parameters_has_value(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);
@@ -443,8 +442,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
  * Describes any sensor for the library; without parameters of its own it is at the origin, without
  * biases, and sees everything.
  */
-void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32_t sensor_id,
-                                      struct rho_sensor *sensor);
+void parameters_sensor_or_default(const struct parameters *parameters, int32_t sensor_id,
+                                  struct rho_sensor *sensor);
 
 /* The library's settings from the parameters, checked by parameters_check_together; exit 2. */
 struct rho_settings parameters_to_settings(const struct parameters *parameters);
@@ -469,8 +468,8 @@ void parameters_to_assembler(const struct parameters *parameters,
 /*
  * Updates the assembler's descriptions of sensors from changed parameters, while messages arrive.
  */
-void parameters_update_assembler_sensors(const struct parameters *parameters,
-                                         struct rho_scan_assembler *assembler);
+void parameters_update_assembler(const struct parameters *parameters,
+                                 struct rho_scan_assembler *assembler);
 
 /*
  * Assigns a zone's parameter; key: "N.name" with the zone's number N. Returns false and the reason

@@ -139,8 +139,7 @@ static void parameters_to_input_config(const struct parameters *parameters,
     config->initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
 }
 
-static bool is_parameter_source_beyond_default(const struct parameters *parameters,
-                                               enum parameter_id id)
+static bool is_parameter_set(const struct parameters *parameters, enum parameter_id id)
 {
     return parameters->source[id] > SOURCE_DEFAULT;
 }
@@ -148,9 +147,9 @@ static bool is_parameter_source_beyond_default(const struct parameters *paramete
 /* True where a source set the position noise, for all sensors or for one. */
 static bool is_noise_stated(const struct parameters *parameters)
 {
-    bool says = is_parameter_source_beyond_default(parameters, PARAMETER_SIGMA_M) ||
-                is_parameter_source_beyond_default(parameters, PARAMETER_SIGMA_RANGE_M) ||
-                is_parameter_source_beyond_default(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
+    bool says = is_parameter_set(parameters, PARAMETER_SIGMA_M) ||
+                is_parameter_set(parameters, PARAMETER_SIGMA_RANGE_M) ||
+                is_parameter_set(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
 
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const int32_t id = parameters->sensors[i].sensor_id;
@@ -172,14 +171,12 @@ static void set_learning_bounds(const struct parameters *parameters,
     const double *value = parameters->value;
     const bool says = is_noise_stated(parameters);
 
-    config->learn_noise_min =
-        says || is_parameter_source_beyond_default(parameters, PARAMETER_LEARN_NOISE_MIN)
-            ? (float)value[PARAMETER_LEARN_NOISE_MIN]
-            : UNSTATED_MIN;
-    config->learn_noise_max =
-        says || is_parameter_source_beyond_default(parameters, PARAMETER_LEARN_NOISE_MAX)
-            ? (float)value[PARAMETER_LEARN_NOISE_MAX]
-            : UNSTATED_MAX;
+    config->learn_noise_min = says || is_parameter_set(parameters, PARAMETER_LEARN_NOISE_MIN)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MIN]
+                                  : UNSTATED_MIN;
+    config->learn_noise_max = says || is_parameter_set(parameters, PARAMETER_LEARN_NOISE_MAX)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MAX]
+                                  : UNSTATED_MAX;
     config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
 }
 
@@ -221,11 +218,11 @@ static void rotate_sector(struct rho_sensor *sensor, double turn_rad)
     }
 }
 
-void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32_t sensor_id,
-                                      struct rho_sensor *sensor)
+void parameters_sensor_or_default(const struct parameters *parameters, int32_t sensor_id,
+                                  struct rho_sensor *sensor)
 {
     const double *value = parameters->value;
-    double range_max_m = is_parameter_source_beyond_default(parameters, PARAMETER_RANGE_MAX_M)
+    double range_max_m = is_parameter_set(parameters, PARAMETER_RANGE_MAX_M)
                              ? value[PARAMETER_RANGE_MAX_M]
                              : 2.0 * (double)RHO_LIMIT_POSITION_M;
 
@@ -256,7 +253,7 @@ void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32
             OF_SENSOR(SENSOR_RESOLUTION_RANGE_RATE_MPS, value[PARAMETER_RESOLUTION_RANGE_RATE_MPS]),
     };
 #undef OF_SENSOR
-    rotate_sector(sensor, parameters_sensor_meridian_convergence_rad(parameters, sensor_id));
+    rotate_sector(sensor, parameters_convergence_rad(parameters, sensor_id));
 }
 
 int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id)
@@ -283,14 +280,14 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
                           struct rho_sensor *sensor)
 {
     if (!parameters_has_sensor(parameters, sensor_id) &&
-        !is_parameter_source_beyond_default(parameters, PARAMETER_RANGE_MIN_M) &&
-        !is_parameter_source_beyond_default(parameters, PARAMETER_RANGE_MAX_M) &&
+        !is_parameter_set(parameters, PARAMETER_RANGE_MIN_M) &&
+        !is_parameter_set(parameters, PARAMETER_RANGE_MAX_M) &&
         !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_NOTCH_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_RESOLUTION_RANGE_M] > 0.0) &&
         !(parameters->value[PARAMETER_RESOLUTION_AZIMUTH_RAD] > 0.0)) {
         return false;
     }
-    parameters_to_sensor_or_defaults(parameters, sensor_id, sensor);
+    parameters_sensor_or_default(parameters, sensor_id, sensor);
     return true;
 }

@@ -19,7 +19,7 @@ static void print_parameter_row(FILE *out, const struct parameter_text *text, co
             value, parameters_source_name(source), text->text);
 }
 
-static void print_sensor_values_that_are_set(FILE *out, const struct sensor_parameters *sensor)
+static void print_sensor_values(FILE *out, const struct sensor_parameters *sensor)
 {
     for (int i = 0; i < NUM_SENSOR_PARAMETERS; i++) {
         struct parameter_text text = parameters_sensor_text((enum sensor_parameter_id)i);
@@ -118,7 +118,7 @@ void parameters_print_table(const struct parameters *parameters, FILE *out)
     print_allowed_sensors(parameters, out);
     print_reflectors(parameters, out);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
-        print_sensor_values_that_are_set(out, &parameters->sensors[i]);
+        print_sensor_values(out, &parameters->sensors[i]);
     }
     print_sensor_names(parameters, out);
     print_sensor_keys(out);

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number_and_time_parsing.h"
+#include "base/parse.h"
 #include "rhotrack/reflectors.h"
 #include "settings/parameters.h"
 
@@ -19,7 +19,7 @@ static const char *parse_wall_coordinate(const char *value, double *number,
     const char *behind = value;
     const int bytes = (int)strcspn(value, " \t,");
 
-    if (parse_next_number_or_give_reason(&behind, number)) {
+    if (parse_next_number(&behind, number)) {
         snprintf(reason, PARAMETER_REASON_BYTES, "reflectors '%.*s' is not a number",
                  bytes < 60 ? bytes : 60, value);
         return NULL;

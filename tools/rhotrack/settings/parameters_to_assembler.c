@@ -28,7 +28,7 @@ assembler_sensor_of_parameters(const struct parameters *parameters, int32_t sens
 {
     struct rho_scan_assembler_sensor known = {.noise = sensor_noise(parameters, sensor_id)};
 
-    parameters_to_sensor_or_defaults(parameters, sensor_id, &known.sensor);
+    parameters_sensor_or_default(parameters, sensor_id, &known.sensor);
     return known;
 }
 
@@ -49,8 +49,8 @@ static enum rho_status set_sensors_of_assembler(const struct parameters *paramet
     return status;
 }
 
-void parameters_update_assembler_sensors(const struct parameters *parameters,
-                                         struct rho_scan_assembler *assembler)
+void parameters_update_assembler(const struct parameters *parameters,
+                                 struct rho_scan_assembler *assembler)
 {
     struct rho_sensor any;
 

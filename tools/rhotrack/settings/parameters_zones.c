@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/number_and_time_parsing.h"
+#include "base/parse.h"
 #include "settings/parameters.h"
 
 static const char *const keys[NUM_ZONE_PARAMETERS] = {"corners_m", "heading_rad", "margin_m",
@@ -39,7 +39,7 @@ static bool parse_zone_corners(const char *value, struct rho_zone *zone, char *r
     for (value += strspn(value, between); *value; value += strspn(value, between)) {
         double number;
 
-        if (count == 2 * RHO_ZONE_CORNERS || parse_next_number_or_give_reason(&value, &number)) {
+        if (count == 2 * RHO_ZONE_CORNERS || parse_next_number(&value, &number)) {
             break;
         }
         numbers[count++] = (float)number;

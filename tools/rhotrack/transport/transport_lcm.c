@@ -30,8 +30,6 @@ struct provider {
     uint8_t data[MESSAGE_BYTES];
 };
 
-/* ---- Receiving ---- */
-
 static void on_lcm_message(const lcm_recv_buf_t *buffer, const char *channel, void *user)
 {
     struct provider *provider = user;
@@ -73,11 +71,9 @@ static enum transport_found receive_message(struct transport *transport, void *o
         .channel = provider->channel,
         .data = provider->data,
         .size = provider->size,
-        .received_us = transport_monotonic_reception_time_us(transport, provider->time_us)};
+        .received_us = transport_reception_time_us(transport, provider->time_us)};
     return TRANSPORT_MESSAGE;
 }
-
-/* ---- Sending, opening ---- */
 
 static bool send_message(void *object, const char *channel, const uint8_t *data, size_t size)
 {

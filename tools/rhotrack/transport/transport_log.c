@@ -81,8 +81,6 @@ void transport_open_read_log(struct transport *transport)
     free(path);
 }
 
-/* ---- Writing ---- */
-
 struct written_log {
     struct transport *transport;
     char *path;

@@ -18,8 +18,6 @@ void transport_refuse(const struct transport *transport, const char *format, ...
     fail(EXIT_USAGE, "%s %s: %s", transport->source, transport->url, reason);
 }
 
-/* ---- The reception clock ---- */
-
 static int64_t system_time_us(void)
 {
     struct timespec now;
@@ -41,7 +39,7 @@ int64_t transport_now_us(struct transport *transport)
     return now_us;
 }
 
-int64_t transport_monotonic_reception_time_us(struct transport *transport, int64_t time_us)
+int64_t transport_reception_time_us(struct transport *transport, int64_t time_us)
 {
     int64_t before_us = transport->last_us, now_us = transport_now_us(transport);
 

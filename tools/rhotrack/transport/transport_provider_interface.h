@@ -35,7 +35,7 @@ _Noreturn void transport_refuse(const struct transport *transport, const char *f
     __attribute__((format(printf, 2, 3)));
 
 /* Converts a recent time of the system's clock to the monotonic reception clock. */
-int64_t transport_monotonic_reception_time_us(struct transport *transport, int64_t time_us);
+int64_t transport_reception_time_us(struct transport *transport, int64_t time_us);
 
 /* Providers: each opens the transport's URL, and sets provider, object and can_send. */
 void transport_open_udpm(struct transport *transport, enum transport_use use);

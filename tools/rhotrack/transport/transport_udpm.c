@@ -52,8 +52,6 @@ struct udpm {
     uint8_t bytes[BATCH][DATAGRAM_BYTES];
 };
 
-/* ---- URL ---- */
-
 static long parse_url_number(const struct transport *transport, const char *name, const char *text,
                              long min, long max)
 {
@@ -143,8 +141,6 @@ static void parse_udpm_url(struct transport *transport, struct udpm *udpm)
     }
     free(text);
 }
-
-/* ---- Sockets ---- */
 
 static void must_set_option(const struct transport *transport, int descriptor, int level,
                             int option, const void *value, socklen_t size)
@@ -249,8 +245,6 @@ static void open_sender(const struct transport *transport, struct udpm *udpm)
     }
 }
 
-/* ---- Receiving ---- */
-
 static int receiver_descriptor(const void *object)
 {
     return ((const struct udpm *)object)->receiver;
@@ -295,7 +289,7 @@ static int64_t read_reception_time_and_drops(struct transport *transport, struct
         }
     }
     return time_us == INT64_MAX ? transport_now_us(transport)
-                                : transport_monotonic_reception_time_us(transport, time_us);
+                                : transport_reception_time_us(transport, time_us);
 }
 
 /* True for a datagram that this program sent itself, which multicast loops back. */
@@ -324,9 +318,8 @@ static bool is_source_admitted(struct transport *transport, struct udpm *udpm,
  * Parses a datagram into a message. Returns false, and counts a refusal, where it is not an LCM
  * message; long messages of other programs are recognised by their channel and not counted.
  */
-static bool parse_datagram_as_one_whole_message(struct transport *transport, struct mmsghdr *here,
-                                                const uint8_t *bytes,
-                                                struct transport_message *message)
+static bool parse_whole_message(struct transport *transport, struct mmsghdr *here,
+                                const uint8_t *bytes, struct transport_message *message)
 {
     struct rho_udpm_datagram datagram;
     bool is_cut = here->msg_hdr.msg_flags & MSG_TRUNC;
@@ -363,8 +356,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
         int i = udpm->next++;
 
         if (is_source_admitted(transport, udpm, &udpm->sources[i]) &&
-            parse_datagram_as_one_whole_message(transport, &udpm->here[i], udpm->bytes[i],
-                                                message)) {
+            parse_whole_message(transport, &udpm->here[i], udpm->bytes[i], message)) {
             message->sender = (struct transport_sender){ntohl(udpm->sources[i].sin_addr.s_addr),
                                                         ntohs(udpm->sources[i].sin_port),
                                                         is_own_datagram(udpm, &udpm->sources[i])};
@@ -373,8 +365,6 @@ static enum transport_found receive_message(struct transport *transport, void *o
     }
     return TRANSPORT_NOTHING;
 }
-
-/* ---- Sending ---- */
 
 static bool send_message(void *object, const char *channel, const uint8_t *data, size_t size)
 {

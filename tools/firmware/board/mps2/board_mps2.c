@@ -63,7 +63,7 @@ int64_t board_time_us(void)
 /* ---- Network ---- */
 
 /*
- * Interrupt of the chip: disabled until the next board_sleep_until_event_or_time, as it stays
+ * Interrupt of the chip: disabled until the next board_sleep_until, as it stays
  * active until the frames are read.
  */
 void mps2_mute_ethernet_interrupt(void)
@@ -131,7 +131,7 @@ uint32_t board_num_unsent(void)
     return unsent;
 }
 
-void board_sleep_until_event_or_time(int64_t until_us)
+void board_sleep_until(int64_t until_us)
 {
     if (board_time_us() < until_us) {
         NVIC_UNPEND = 1u << MPS2_ETHERNET_IRQ;

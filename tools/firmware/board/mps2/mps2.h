@@ -43,7 +43,7 @@ void mps2_run_main(void) __attribute__((noreturn));
 void mps2_systick_interrupt(void);
 void mps2_mute_ethernet_interrupt(void);
 
-/* Open and flush the console of printf in images that measure. In newlib_stdout_to_debugger.c. */
+/* Open and flush the console of printf in images that measure. In newlib_stdout.c. */
 void mps2_open_console(void);
 void mps2_close_console(void);
 

@@ -111,7 +111,7 @@ uint32_t files_instructions_elapsed(uint32_t from, uint32_t to)
 int main(int argc, char **argv);
 
 /*
- * Replaced in newlib_stdout_to_debugger.c for images whose C library has a console to open and
+ * Replaced in newlib_stdout.c for images whose C library has a console to open and
  * flush.
  */
 __attribute__((weak)) void mps2_open_console(void)

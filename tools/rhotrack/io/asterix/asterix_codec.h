@@ -33,8 +33,6 @@
 #define ASTERIX_RANGE_M (1852.0 / 256) /* unit of ranges, metres */
 #define ASTERIX_HEIGHT_M (25 * 0.3048) /* unit of heights and flight levels: 25 ft in metres */
 
-/* ---- Blocks and records ---- */
-
 struct asterix_block {
     uint8_t category;
     const uint8_t *records; /* first byte of the block's records, inside the bytes given */
@@ -82,8 +80,6 @@ struct asterix_record {
  */
 bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
                          struct asterix_record *record, struct asterix_error *error);
-
-/* ---- Values ---- */
 
 struct asterix_source {
     bool is_given;

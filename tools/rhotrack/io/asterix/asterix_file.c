@@ -30,8 +30,6 @@ struct asterix_file {
     uint64_t others[256], other_records[256];
 };
 
-/* ---- What sort of file ---- */
-
 static bool is_wanted_category(const struct asterix_file *file, uint8_t category)
 {
     return file->wants_tracks
@@ -39,7 +37,8 @@ static bool is_wanted_category(const struct asterix_file *file, uint8_t category
                : asterix_category_is_plots(category) || asterix_category_is_service(category);
 }
 
-bool asterix_block_is_good(const uint8_t *data, size_t size)
+/* Whether the bytes begin with a data block of a known category whose records can all be read. */
+static bool is_block_good(const uint8_t *data, size_t size)
 {
     struct asterix_block block;
     struct asterix_record record;
@@ -63,7 +62,7 @@ static bool begins_with_good_block(const char *path)
 {
     uint8_t *bytes = must_alloc(ASTERIX_BLOCK_MAX);
     FILE *file = fopen(path, "rb");
-    bool is_good = file && asterix_block_is_good(bytes, fread(bytes, 1, ASTERIX_BLOCK_MAX, file));
+    bool is_good = file && is_block_good(bytes, fread(bytes, 1, ASTERIX_BLOCK_MAX, file));
 
     if (file) {
         fclose(file);
@@ -82,8 +81,6 @@ bool asterix_file_is_asterix(const char *path)
     }
     return !stat(path, &status) && S_ISREG(status.st_mode) && begins_with_good_block(path);
 }
-
-/* ---- Bytes ---- */
 
 /* Whether the bytes consist of whole data blocks of any category. */
 static bool consists_of_blocks(const uint8_t *data, size_t size)
@@ -182,15 +179,13 @@ struct asterix_file *asterix_file_open_tracks(const char *path, bool keep_going)
     return file;
 }
 
-/* ---- Bad places ---- */
-
 /* Advances to the next readable block, or to the end. */
 static void advance_to_good_block(struct asterix_file *file)
 {
     for (;;) {
         fill_buffer(file);
         if (file->at == file->size ||
-            asterix_block_is_good(file->bytes + file->at, file->size - file->at)) {
+            is_block_good(file->bytes + file->at, file->size - file->at)) {
             return;
         }
         file->at++;
@@ -202,7 +197,7 @@ static _Noreturn void fail_at_bad_byte(const struct asterix_file *file,
 {
     if (file->captured) {
         fail(EXIT_USAGE, "%s: packet %" PRIu64 ", byte %zu of its content: %s", file->path,
-             captured_datagrams_packet_number(file->captured), file->at + error->at, error->reason);
+             captured_datagrams_packet(file->captured), file->at + error->at, error->reason);
     }
     fail(EXIT_USAGE, "%s: byte %" PRIu64 ": %s", file->path, file->offset + file->at + error->at,
          error->reason);
@@ -221,7 +216,7 @@ static void fail_or_skip_bad_block(struct asterix_file *file, const struct aster
         fail_at_bad_byte(file, error);
     }
     if (end > file->at &&
-        (end == file->size || asterix_block_is_good(file->bytes + end, file->size - end))) {
+        (end == file->size || is_block_good(file->bytes + end, file->size - end))) {
         file->at = end;
     } else {
         file->at++;
@@ -231,8 +226,6 @@ static void fail_or_skip_bad_block(struct asterix_file *file, const struct aster
     file->places_skipped++;
     file->bytes_skipped += file->offset + file->at - start;
 }
-
-/* ---- Records ---- */
 
 /* Number of a skipped block's records, up to the first bad one. */
 static uint64_t count_block_records(const struct asterix_block *block)
@@ -306,7 +299,7 @@ uint64_t asterix_file_position(const struct asterix_file *file)
     return file->offset + file->at;
 }
 
-uint64_t asterix_file_num_skipped_blocks(const struct asterix_file *file, uint8_t category)
+uint64_t asterix_file_skipped_blocks(const struct asterix_file *file, uint8_t category)
 {
     return file->others[category];
 }
@@ -331,8 +324,6 @@ struct asterix_place asterix_file_radar_place(const char *path)
     asterix_file_close(file);
     return service.place;
 }
-
-/* ---- What was skipped ---- */
 
 /* Reports the left-out blocks on standard error, one line a category. */
 static void report_skipped_categories(const struct asterix_file *file)
@@ -363,12 +354,12 @@ void asterix_file_report_skipped(const struct asterix_file *file)
     }
     if (file->captured && captured_datagrams_why_cut(file->captured)) {
         fprintf(stderr, "rhotrack: %s: after packet %" PRIu64 ": %s; the rest is left out\n",
-                file->path, captured_datagrams_packet_number(file->captured),
+                file->path, captured_datagrams_packet(file->captured),
                 captured_datagrams_why_cut(file->captured));
     }
-    if (file->captured && captured_datagrams_num_incomplete(file->captured) > 0) {
+    if (file->captured && captured_datagrams_incomplete(file->captured) > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams left out: fragments, or truncated\n",
-                file->path, captured_datagrams_num_incomplete(file->captured));
+                file->path, captured_datagrams_incomplete(file->captured));
     }
 }
 

@@ -24,9 +24,6 @@
  */
 bool asterix_file_is_asterix(const char *path);
 
-/* Whether the bytes begin with a data block of a known category whose records can all be read. */
-bool asterix_block_is_good(const uint8_t *data, size_t size);
-
 /*
  * The first place of a radar that a recording states; is_given is false where there is none, and
  * for other files. Bad blocks are skipped without a report.
@@ -48,7 +45,7 @@ bool asterix_file_next_record(struct asterix_file *file, struct asterix_record *
 uint64_t asterix_file_position(const struct asterix_file *file);
 
 /* Number of blocks of a category that were left out so far, since it is not read. */
-uint64_t asterix_file_num_skipped_blocks(const struct asterix_file *file, uint8_t category);
+uint64_t asterix_file_skipped_blocks(const struct asterix_file *file, uint8_t category);
 
 /* Reports skipped bytes, left-out blocks and left-out datagrams on standard error, if any. */
 void asterix_file_report_skipped(const struct asterix_file *file);

@@ -40,8 +40,6 @@
         name, ASTERIX_ANY, 0, 0, NULL                                                              \
     }
 
-/* ---- CAT001 ---- */
-
 static const struct asterix_item i001[I001_ITEMS] = {
     FIXED("010", 2),
     EXTENDED("020"),
@@ -74,16 +72,12 @@ static const struct asterix_item i001_track[I001_TRACK_ITEMS] = {
     ANY("RFS"),      FIXED("150", 1),
 };
 
-/* ---- CAT002 ---- */
-
 static const struct asterix_item i002[I002_ITEMS] = {
     FIXED("010", 2), FIXED("000", 1), FIXED("020", 1), FIXED("030", 3),
     FIXED("041", 2), EXTENDED("050"), EXTENDED("060"), REPEATED("070", 2),
     FIXED("100", 8), FIXED("090", 2), EXTENDED("080"), NONE,
     EXPLICIT("SP"),  ANY("RFS"),
 };
-
-/* ---- CAT034 ---- */
 
 static const struct asterix_item i034_050[] = {
     FIXED("COM", 1), NONE, NONE, FIXED("PSR", 1), FIXED("SSR", 1), FIXED("MDS", 2)};
@@ -106,8 +100,6 @@ static const struct asterix_item i034[I034_ITEMS] = {
     EXPLICIT("RE"),
     EXPLICIT("SP"),
 };
-
-/* ---- CAT048 ---- */
 
 static const struct asterix_item i048_130[] = {FIXED("SRL", 1), FIXED("SRR", 1), FIXED("SAM", 1),
                                                FIXED("PRL", 1), FIXED("PAM", 1), FIXED("RPD", 1),
@@ -144,8 +136,6 @@ static const struct asterix_item i048[I048_ITEMS] = {
     EXPLICIT("SP"),
     EXPLICIT("RE"),
 };
-
-/* ---- CAT062 ---- */
 
 static const struct asterix_item i062_380[] = {
     FIXED("ADR", 3), FIXED("ID", 6),  FIXED("MHG", 2), FIXED("IAS", 2),     FIXED("TAS", 2),

@@ -12,8 +12,6 @@
 #define PI 3.141592653589793
 #define HOLD_S 5.0 /* wait for late plots of a look; waiting costs nothing in a file */
 
-/* ---- Columns ---- */
-
 enum column {
     AT_T_S,
     AT_SENSOR_ID,
@@ -66,8 +64,6 @@ struct table *asterix_plot_rows_empty_table(const char *path, const struct aster
     return table_make_empty_of_numbers(path, list, count);
 }
 
-/* ---- Records ---- */
-
 /* A row of the table: its time, its rank among rows of equal time, and its cells by enum column. */
 struct output_row {
     int64_t time_128;
@@ -79,7 +75,7 @@ struct output_row {
  * Azimuth in radians counter-clockwise from east, -pi .. pi, from ASTERIX units clockwise from
  * north.
  */
-static double ccw_from_east_rad_from_azimuth_units(uint32_t azimuth)
+static double azimuth_rad_from_units(uint32_t azimuth)
 {
     return remainder(PI / 2 - 2 * PI / ASTERIX_TURN * azimuth, 2 * PI);
 }
@@ -99,20 +95,13 @@ static void put_plot_cells(struct output_row *row, const struct asterix_scan_plo
 {
     put_rounded_cell(row, AT_RANGE_M,
                      mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
-    put_rounded_cell(row, AT_AZIMUTH_RAD, ccw_from_east_rad_from_azimuth_units(mark->azimuth));
+    put_rounded_cell(row, AT_AZIMUTH_RAD, azimuth_rad_from_units(mark->azimuth));
     if (mark->has_alt) {
         put_rounded_cell(row, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
     }
     if (mark->has_doppler) {
         put_rounded_cell(row, AT_RANGE_RATE_MPS, mark->doppler_mps);
     }
-}
-
-static void put_radar_place_cells(struct output_row *row, const struct asterix_place *place)
-{
-    put_rounded_cell(row, AT_SENSOR_LAT_DEG, place->lat_deg);
-    put_rounded_cell(row, AT_SENSOR_LON_DEG, place->lon_deg);
-    put_rounded_cell(row, AT_SENSOR_ALT_M, place->alt_m);
 }
 
 /* A row of a scan: of a plot, or with NULL the row without a plot that begins the scan. */
@@ -129,18 +118,18 @@ static struct output_row make_row_of_plot_or_scan_start(const struct asterix_sca
         put_plot_cells(&row, mark);
     }
     if (scan->place.is_given) {
-        put_radar_place_cells(&row, &scan->place);
+        put_rounded_cell(&row, AT_SENSOR_LAT_DEG, scan->place.lat_deg);
+        put_rounded_cell(&row, AT_SENSOR_LON_DEG, scan->place.lon_deg);
+        put_rounded_cell(&row, AT_SENSOR_ALT_M, scan->place.alt_m);
     }
     /*
      * The antenna turns clockwise, so that counter-clockwise the sector goes from its end to its
      * start.
      */
     if (!scan->is_turn) {
-        put_rounded_cell(
-            &row, AT_SECTOR_FROM_RAD,
-            ccw_from_east_rad_from_azimuth_units(scan->look.from + scan->look.advance));
-        put_rounded_cell(&row, AT_SECTOR_TO_RAD,
-                         ccw_from_east_rad_from_azimuth_units(scan->look.from));
+        put_rounded_cell(&row, AT_SECTOR_FROM_RAD,
+                         azimuth_rad_from_units(scan->look.from + scan->look.advance));
+        put_rounded_cell(&row, AT_SECTOR_TO_RAD, azimuth_rad_from_units(scan->look.from));
     }
     if (scan->is_numbered) {
         put_rounded_cell(&row, AT_SCAN, scan->number);
@@ -172,8 +161,6 @@ void asterix_plot_rows_add_scan(struct table *table, const struct asterix_scan *
     }
 }
 
-/* ---- Recordings ---- */
-
 struct asterix_plot_rows {
     char *path;
     struct asterix_file *file;
@@ -194,8 +181,6 @@ struct asterix_plot_rows {
 const char asterix_plot_rows_no_tracks[] = "contains tracks (CAT062), but plots are needed; "
                                            "evaluate, plot, convert and publish take tracks";
 
-/* ---- Rules, origin ---- */
-
 struct asterix_rules asterix_plot_rows_scan_rules(const struct parameters *parameters,
                                                   double hold_s, double wait_s)
 {
@@ -207,8 +192,8 @@ struct asterix_rules asterix_plot_rows_scan_rules(const struct parameters *param
     };
 }
 
-void asterix_set_and_report_default_origin(const char *path, const struct asterix_place *place,
-                                           struct parameters *parameters)
+void asterix_set_default_origin(const char *path, const struct asterix_place *place,
+                                struct parameters *parameters)
 {
     parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place->lat_deg);
     parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place->lon_deg);
@@ -219,7 +204,7 @@ void asterix_set_and_report_default_origin(const char *path, const struct asteri
             path, place->lat_deg, place->lon_deg, place->alt_m);
 }
 
-void asterix_plot_rows_report_left_out(const char *path, const struct asterix_counts *counts)
+void asterix_plot_rows_report(const char *path, const struct asterix_counts *counts)
 {
     const struct {
         uint64_t count;
@@ -258,14 +243,11 @@ void asterix_plot_rows_report_left_out(const char *path, const struct asterix_co
     }
 }
 
-/* ---- Looking at the file ---- */
-
 /*
  * Notes the radar of a record and the columns that it fills. Returns whether it can be used: it has
  * a place of a plot, or the type and time of an antenna message.
  */
-static bool preview_record_and_tell_if_usable(struct asterix_plot_rows *records,
-                                              const struct asterix_record *record)
+static bool preview_record(struct asterix_plot_rows *records, const struct asterix_record *record)
 {
     struct asterix_service service;
     struct asterix_plot plot;
@@ -289,9 +271,9 @@ static void preview_recording(struct asterix_plot_rows *records, bool keep_going
     bool has_any = false;
 
     while (asterix_file_next_record(file, &record)) {
-        has_any |= preview_record_and_tell_if_usable(records, &record);
+        has_any |= preview_record(records, &record);
     }
-    if (!has_any && asterix_file_num_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
+    if (!has_any && asterix_file_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
         fail(EXIT_USAGE, "%s: %s", records->path, asterix_plot_rows_no_tracks);
     }
     if (!has_any) {
@@ -346,12 +328,10 @@ asterix_plot_rows_open(const char *path, const struct parameters *parameters, bo
     return records;
 }
 
-void asterix_plot_rows_suppress_end_summary(struct asterix_plot_rows *records)
+void asterix_plot_rows_set_quiet(struct asterix_plot_rows *records)
 {
     records->is_hushed = true;
 }
-
-/* ---- Rows ---- */
 
 /*
  * Queues the row of a plot, or with mark NULL the row that begins a scan. A row before the newest
@@ -371,16 +351,6 @@ static void queue_row_unless_late(struct asterix_plot_rows *records,
     records->list = must_make_room_for_one(records->list, records->count, &records->capacity,
                                            sizeof *records->list);
     records->list[records->count++] = row;
-}
-
-static void queue_scan_rows(struct asterix_plot_rows *records, const struct asterix_scan *scan)
-{
-    if (scan->is_numbered) {
-        queue_row_unless_late(records, scan, NULL);
-    }
-    for (size_t i = 0; i < scan->count; i++) {
-        queue_row_unless_late(records, scan, &scan->marks[i]);
-    }
 }
 
 static int by_time_and_order(const void *a, const void *b)
@@ -405,7 +375,12 @@ static void queue_rows_of_complete_scans(struct asterix_plot_rows *records)
             records->next = 0;
             before = 0;
         }
-        queue_scan_rows(records, &scan);
+        if (scan.is_numbered) {
+            queue_row_unless_late(records, &scan, NULL);
+        }
+        for (size_t i = 0; i < scan.count; i++) {
+            queue_row_unless_late(records, &scan, &scan.marks[i]);
+        }
     }
     if (records->count != before) {
         qsort(records->list, records->count, sizeof *records->list, by_time_and_order);
@@ -417,7 +392,7 @@ static void report_at_end(const struct asterix_plot_rows *records)
     const struct asterix_counts *counts = asterix_scans_counts(records->scans);
 
     asterix_file_report_skipped(records->file);
-    asterix_plot_rows_report_left_out(records->path, counts);
+    asterix_plot_rows_report(records->path, counts);
     for (size_t i = 0; i < records->num_placeless; i++) {
         fprintf(stderr,
                 "rhotrack: %s: sensor %" PRId32

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * asterix_plot_rows: an ASTERIX recording of radars as rows of polar plots
- * (table_columns_and_cells.h). Readers of tables read recordings through it, and `convert` writes
+ * (csv_table.h). Readers of tables read recordings through it, and `convert` writes
  * the rows to a CSV file: the line number in an error message is the line of that file.
  *
  * Columns: t_s, sensor_id, range_m, azimuth_rad, alt_m, range_rate_mps; where a radar states its
@@ -13,7 +13,7 @@
 #define RHOTRACK_TOOL_ASTERIX_PLOT_ROWS_H
 
 #include "io/asterix/asterix_scans.h"
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 #include "settings/parameters.h"
 
 struct asterix_plot_rows;
@@ -30,7 +30,7 @@ struct asterix_plot_rows *
 asterix_plot_rows_open(const char *path, const struct parameters *parameters, bool keep_going);
 
 /* Suppresses all reports on standard error at the end of the file. */
-void asterix_plot_rows_suppress_end_summary(struct asterix_plot_rows *records);
+void asterix_plot_rows_set_quiet(struct asterix_plot_rows *records);
 
 /* Error message for tracks (CAT062) given as input where plots are needed. */
 extern const char asterix_plot_rows_no_tracks[];
@@ -53,8 +53,6 @@ bool asterix_plot_rows_next(struct asterix_plot_rows *records, struct table *tab
 uint64_t asterix_plot_rows_position(const struct asterix_plot_rows *records);
 void asterix_plot_rows_close(struct asterix_plot_rows *records);
 
-/* ---- Of what is heard live ---- */
-
 /*
  * Adds a scan's rows to a table: one without a plot that begins the scan, then one for each plot.
  */
@@ -65,10 +63,10 @@ struct asterix_rules asterix_plot_rows_scan_rules(const struct parameters *param
                                                   double hold_s, double wait_s);
 
 /* Suggests a radar's place as the origin in the parameters, and reports it on standard error. */
-void asterix_set_and_report_default_origin(const char *path, const struct asterix_place *place,
-                                           struct parameters *parameters);
+void asterix_set_default_origin(const char *path, const struct asterix_place *place,
+                                struct parameters *parameters);
 
 /* Reports the numbers of plots and messages left out, by reason, in one line on standard error. */
-void asterix_plot_rows_report_left_out(const char *path, const struct asterix_counts *counts);
+void asterix_plot_rows_report(const char *path, const struct asterix_counts *counts);
 
 #endif

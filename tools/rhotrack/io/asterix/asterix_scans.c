@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/asterix/asterix_radar_state.h"
+#include "io/asterix/asterix_radar.h"
 
 #define PERIOD_MIN_128 (ASTERIX_TIME_HZ / 2) /* shorter than any radar's turn */
 #define SILENT_128 (60 * ASTERIX_TIME_HZ)    /* a radar silent for this time is not waited for */
@@ -14,7 +14,7 @@
 struct asterix_scans {
     int64_t hold_128, interval_128, wait_128;
     bool is_by_turn;
-    struct asterix_radar_state *sensors; /* ASTERIX_MAX_SENSORS elements */
+    struct asterix_radar *sensors; /* ASTERIX_MAX_SENSORS elements */
     size_t num_sensors;
     bool has_start, has_clock, is_over;
     int64_t start_128; /* reference near the time of the first record */
@@ -52,7 +52,7 @@ void asterix_scans_close(struct asterix_scans *scans)
         return;
     }
     for (size_t i = 0; i < scans->num_sensors; i++) {
-        asterix_radar_state_free(&scans->sensors[i]);
+        asterix_radar_free(&scans->sensors[i]);
     }
     for (size_t i = scans->next_ready; i < scans->num_ready; i++) {
         free((void *)scans->ready[i].marks);
@@ -63,7 +63,7 @@ void asterix_scans_close(struct asterix_scans *scans)
     free(scans);
 }
 
-void asterix_scans_set_reference_time(struct asterix_scans *scans, int64_t time_128)
+void asterix_scans_set_day(struct asterix_scans *scans, int64_t time_128)
 {
     scans->has_start = true;
     scans->start_128 = time_128;
@@ -87,8 +87,8 @@ const struct asterix_counts *asterix_scans_counts(const struct asterix_scans *sc
 }
 
 /* The radar's state, begun where it is new; NULL where there is no room for another radar. */
-static struct asterix_radar_state *find_or_add_sensor(struct asterix_scans *scans,
-                                                      const struct asterix_source *source)
+static struct asterix_radar *find_or_add_sensor(struct asterix_scans *scans,
+                                                const struct asterix_source *source)
 {
     int32_t sensor_id = asterix_sensor_id(source);
     size_t i = 0;
@@ -105,9 +105,8 @@ static struct asterix_radar_state *find_or_add_sensor(struct asterix_scans *scan
     return &scans->sensors[i];
 }
 
-/* ---- Complete scans ---- */
-
-static int compare_plots_by_time_and_azimuth(const void *a, const void *b)
+/* Order by time, then by azimuth. */
+static int compare_plots(const void *a, const void *b)
 {
     const struct asterix_scan_plot *one = a, *other = b;
     int order = (one->time_128 > other->time_128) - (one->time_128 < other->time_128);
@@ -119,7 +118,7 @@ static int compare_plots_by_time_and_azimuth(const void *a, const void *b)
  * Queues a complete look or turn as a scan: sorts its plots by time, and keeps only quantities that
  * all of them have.
  */
-static void queue_complete_scan(struct asterix_scans *scans, struct asterix_radar_state *sensor,
+static void queue_complete_scan(struct asterix_scans *scans, struct asterix_radar *sensor,
                                 struct asterix_open_scan *open)
 {
     struct asterix_scan scan = {.sensor_id = sensor->sensor_id,
@@ -133,17 +132,16 @@ static void queue_complete_scan(struct asterix_scans *scans, struct asterix_rada
                                 .count = open->marks.count};
 
     if (scan.count > 0) {
-        qsort(open->marks.list, scan.count, sizeof *open->marks.list,
-              compare_plots_by_time_and_azimuth);
+        qsort(open->marks.list, scan.count, sizeof *open->marks.list, compare_plots);
     }
-    asterix_scan_plots_keep_quantities_all_have(&open->marks, &sensor->place, &scans->counts);
+    asterix_keep_common_quantities(&open->marks, &sensor->place, &scans->counts);
     scans->counts.placed += scan.count;
     scans->ready = must_make_room_for_one(scans->ready, scans->num_ready, &scans->ready_capacity,
                                           sizeof *scans->ready);
     scans->ready[scans->num_ready++] = scan;
 }
 
-static void queue_turn_as_scan(struct asterix_scans *scans, struct asterix_radar_state *sensor)
+static void queue_turn_as_scan(struct asterix_scans *scans, struct asterix_radar *sensor)
 {
     if (sensor->has_turn) {
         sensor->has_turn = false;
@@ -153,24 +151,24 @@ static void queue_turn_as_scan(struct asterix_scans *scans, struct asterix_radar
 }
 
 /* Takes the radar's oldest open look as complete: it becomes a scan, or is added to the turn. */
-static void finish_oldest_look(struct asterix_scans *scans, struct asterix_radar_state *sensor)
+static void finish_oldest_look(struct asterix_scans *scans, struct asterix_radar *sensor)
 {
-    struct asterix_open_scan open = asterix_radar_state_take_oldest_scan(sensor);
+    struct asterix_open_scan open = asterix_radar_take_scan(sensor);
 
     if (!scans->is_by_turn || !open.has_look) {
         queue_complete_scan(scans, sensor, &open);
         return;
     }
-    if (!asterix_radar_state_try_add_look_to_turn(sensor, &open)) {
+    if (!asterix_radar_extend_turn(sensor, &open)) {
         queue_turn_as_scan(scans, sensor);
-        (void)asterix_radar_state_try_add_look_to_turn(sensor, &open);
+        (void)asterix_radar_extend_turn(sensor, &open);
     }
     if (sensor->turn.look.advance == ASTERIX_TURN) {
         queue_turn_as_scan(scans, sensor);
     }
 }
 
-static void finish_looks_until(struct asterix_scans *scans, struct asterix_radar_state *sensor,
+static void finish_looks_until(struct asterix_scans *scans, struct asterix_radar *sensor,
                                int64_t time_128)
 {
     while (sensor->num_open > 0 && sensor->open[0].look.end_128 <= time_128) {
@@ -179,15 +177,14 @@ static void finish_looks_until(struct asterix_scans *scans, struct asterix_radar
 }
 
 /* Ends all looks of the radar and its turn, and drops plots that fit none. */
-static void finish_all_scans_of_sensor(struct asterix_scans *scans,
-                                       struct asterix_radar_state *sensor)
+static void finish_all_scans_of_sensor(struct asterix_scans *scans, struct asterix_radar *sensor)
 {
     if (sensor->has_crossings) {
-        asterix_radar_state_end_incomplete_last_look(sensor, scans->hold_128);
+        asterix_radar_end_last_look(sensor, scans->hold_128);
     }
     finish_looks_until(scans, sensor, INT64_MAX);
     queue_turn_as_scan(scans, sensor);
-    asterix_radar_state_drop_waiting_plots(sensor, true, &scans->counts);
+    asterix_radar_drop_waiting(sensor, true, &scans->counts);
 }
 
 bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
@@ -203,17 +200,15 @@ bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
     return true;
 }
 
-/* ---- What is known when ---- */
-
 int64_t asterix_scans_settled_time_128(const struct asterix_scans *scans)
 {
     int64_t settled_128 = INT64_MAX;
 
     for (size_t i = 0; i < scans->num_sensors && !scans->is_over; i++) {
-        struct asterix_radar_state *sensor = &scans->sensors[i];
+        struct asterix_radar *sensor = &scans->sensors[i];
 
         if (sensor->has_clock && scans->clock_128 - sensor->seen_128 <= SILENT_128) {
-            int64_t time_128 = asterix_radar_state_settled_time(sensor, scans->hold_128);
+            int64_t time_128 = asterix_radar_settled_time(sensor, scans->hold_128);
 
             settled_128 = time_128 < settled_128 ? time_128 : settled_128;
         }
@@ -225,7 +220,7 @@ int64_t asterix_scans_settled_time_128(const struct asterix_scans *scans)
 static void finish_scans_of_silent_sensors(struct asterix_scans *scans)
 {
     for (size_t i = 0; i < scans->num_sensors; i++) {
-        struct asterix_radar_state *sensor = &scans->sensors[i];
+        struct asterix_radar *sensor = &scans->sensors[i];
 
         if (sensor->has_clock && scans->clock_128 - sensor->seen_128 > SILENT_128 &&
             (sensor->num_open > 0 || sensor->waiting.count > 0)) {
@@ -239,15 +234,15 @@ static void finish_scans_of_silent_sensors(struct asterix_scans *scans)
  * a bad time.
  */
 static bool unwrap_time_and_advance_clocks(struct asterix_scans *scans,
-                                           struct asterix_radar_state *sensor,
-                                           uint32_t time_of_day_128, int64_t *time_128)
+                                           struct asterix_radar *sensor, uint32_t time_of_day_128,
+                                           int64_t *time_128)
 {
     const int64_t *reference_128 = scans->has_clock   ? &scans->clock_128
                                    : scans->has_start ? &scans->start_128
                                                       : NULL;
 
     if (time_of_day_128 >= ASTERIX_DAY ||
-        !asterix_radar_state_unwrap_time(sensor, time_of_day_128, reference_128, time_128)) {
+        !asterix_radar_unwrap_time(sensor, time_of_day_128, reference_128, time_128)) {
         return false;
     }
     if (!scans->has_clock || sensor->clock_128 > scans->clock_128) {
@@ -260,8 +255,7 @@ static bool unwrap_time_and_advance_clocks(struct asterix_scans *scans,
 
 /* Full time of day of a truncated one (modulo 512 s), nearest to the radar's newest known time. */
 static uint32_t untruncated_time_of_day(const struct asterix_scans *scans,
-                                        const struct asterix_radar_state *sensor,
-                                        uint32_t truncated_128)
+                                        const struct asterix_radar *sensor, uint32_t truncated_128)
 {
     const int64_t near_128 = sensor->has_clock  ? sensor->clock_128
                              : scans->has_clock ? scans->clock_128
@@ -278,8 +272,7 @@ static uint32_t untruncated_time_of_day(const struct asterix_scans *scans,
  * Once wait_128 is over, takes a radar without crossings as one that reports none, and forms scans
  * of its plots that waited.
  */
-static void end_wait_for_crossings_if_due(struct asterix_scans *scans,
-                                          struct asterix_radar_state *sensor)
+static void end_wait_for_crossings_if_due(struct asterix_scans *scans, struct asterix_radar *sensor)
 {
     if (sensor->is_known || sensor->has_crossings ||
         sensor->clock_128 - sensor->first_128 < scans->wait_128) {
@@ -288,10 +281,10 @@ static void end_wait_for_crossings_if_due(struct asterix_scans *scans,
     sensor->is_known = true;
     if (sensor->waiting.count > 0) {
         qsort(sensor->waiting.list, sensor->waiting.count, sizeof *sensor->waiting.list,
-              compare_plots_by_time_and_azimuth);
+              compare_plots);
     }
     for (size_t i = 0; i < sensor->waiting.count; i++) {
-        asterix_radar_state_add_plot_by_time(sensor, &sensor->waiting.list[i], scans->interval_128);
+        asterix_radar_add_timed_plot(sensor, &sensor->waiting.list[i], scans->interval_128);
     }
     sensor->waiting.count = 0;
 }
@@ -299,17 +292,15 @@ static void end_wait_for_crossings_if_due(struct asterix_scans *scans,
 /*
  * Forms the scans that are complete after a record of the radar, and ends those of silent radars.
  */
-static void finish_due_scans(struct asterix_scans *scans, struct asterix_radar_state *sensor)
+static void finish_due_scans(struct asterix_scans *scans, struct asterix_radar *sensor)
 {
     end_wait_for_crossings_if_due(scans, sensor);
     finish_looks_until(scans, sensor, sensor->clock_128 - scans->hold_128);
     if (sensor->has_crossings) {
-        asterix_radar_state_drop_waiting_plots(sensor, false, &scans->counts);
+        asterix_radar_drop_waiting(sensor, false, &scans->counts);
     }
     finish_scans_of_silent_sensors(scans);
 }
-
-/* ---- Plots ---- */
 
 /* The counter of the reason for which a plot is left out, or NULL where it is used. */
 static uint64_t *counter_if_left_out(struct asterix_counts *counts, const struct asterix_plot *plot)
@@ -343,22 +334,10 @@ static struct asterix_scan_plot make_scan_plot(const struct asterix_plot *plot, 
     return mark;
 }
 
-static void add_plot_unless_late(struct asterix_scans *scans, struct asterix_radar_state *sensor,
-                                 const struct asterix_scan_plot *mark)
-{
-    if (mark->time_128 < asterix_radar_state_settled_time(sensor, scans->hold_128)) {
-        scans->counts.late++;
-    } else if (!sensor->is_known || sensor->has_crossings) {
-        asterix_radar_state_place_plot_or_let_wait(sensor, mark, scans->hold_128);
-    } else {
-        asterix_radar_state_add_plot_by_time(sensor, mark, scans->interval_128);
-    }
-}
-
 static void process_plot(struct asterix_scans *scans, const struct asterix_plot *plot)
 {
     uint64_t *count = counter_if_left_out(&scans->counts, plot);
-    struct asterix_radar_state *sensor;
+    struct asterix_radar *sensor;
     uint32_t of_day_128 = plot->time_128;
     int64_t time_128;
 
@@ -378,14 +357,18 @@ static void process_plot(struct asterix_scans *scans, const struct asterix_plot 
     } else {
         const struct asterix_scan_plot mark = make_scan_plot(plot, time_128, &scans->counts);
 
-        add_plot_unless_late(scans, sensor, &mark);
+        if (mark.time_128 < asterix_radar_settled_time(sensor, scans->hold_128)) {
+            scans->counts.late++;
+        } else if (!sensor->is_known || sensor->has_crossings) {
+            asterix_radar_place_plot(sensor, &mark, scans->hold_128);
+        } else {
+            asterix_radar_add_timed_plot(sensor, &mark, scans->interval_128);
+        }
         finish_due_scans(scans, sensor);
     }
 }
 
-/* ---- Antenna ---- */
-
-static void note_place_and_period(struct asterix_radar_state *sensor,
+static void note_place_and_period(struct asterix_radar *sensor,
                                   const struct asterix_service *service)
 {
     if (!sensor->place.is_given) {
@@ -406,7 +389,7 @@ static bool is_crossing(const struct asterix_service *service)
 
 static void process_service(struct asterix_scans *scans, const struct asterix_service *service)
 {
-    struct asterix_radar_state *sensor =
+    struct asterix_radar *sensor =
         service->source.is_given ? find_or_add_sensor(scans, &service->source) : NULL;
     uint16_t azimuth = service->type == ASTERIX_NORTH ? 0 : (uint16_t)(service->sector << 8);
     int64_t time_128;
@@ -419,8 +402,8 @@ static void process_service(struct asterix_scans *scans, const struct asterix_se
         scans->counts.services_other++;
     } else if (!sensor || !is_crossing(service) ||
                !unwrap_time_and_advance_clocks(scans, sensor, service->time_128, &time_128) ||
-               !asterix_radar_state_complete_look_at_crossing(sensor, time_128, azimuth,
-                                                              scans->hold_128, &scans->counts)) {
+               !asterix_radar_end_look(sensor, time_128, azimuth, scans->hold_128,
+                                       &scans->counts)) {
         scans->counts.services_left++;
     } else {
         finish_due_scans(scans, sensor);
@@ -444,7 +427,7 @@ void asterix_scans_take_record(struct asterix_scans *scans, const struct asterix
 
 void asterix_scans_preview_record(struct asterix_scans *scans, const struct asterix_record *record)
 {
-    struct asterix_radar_state *sensor = NULL;
+    struct asterix_radar *sensor = NULL;
 
     if (asterix_category_is_plots(record->category)) {
         struct asterix_plot plot;
@@ -473,7 +456,7 @@ void asterix_scans_preview_record(struct asterix_scans *scans, const struct aste
 void asterix_scans_finish(struct asterix_scans *scans)
 {
     for (size_t i = 0; i < scans->num_sensors; i++) {
-        struct asterix_radar_state *sensor = &scans->sensors[i];
+        struct asterix_radar *sensor = &scans->sensors[i];
 
         if (sensor->has_clock && !sensor->is_known && !sensor->has_crossings) {
             scans->wait_128 = 0;

@@ -16,7 +16,7 @@
 #ifndef RHOTRACK_TOOL_ASTERIX_SCANS_H
 #define RHOTRACK_TOOL_ASTERIX_SCANS_H
 
-#include "io/asterix/asterix_antenna_looks_from_crossings.h"
+#include "io/asterix/asterix_antenna.h"
 #include "io/asterix/asterix_codec.h"
 
 struct asterix_scan_plot {
@@ -100,7 +100,7 @@ bool asterix_scans_sensor_has_place(const struct asterix_scans *scans, size_t in
  * Sets a reference time: the first record's time of day is taken on the day that is nearest to it.
  * Without, times start on the first day.
  */
-void asterix_scans_set_reference_time(struct asterix_scans *scans, int64_t time_128);
+void asterix_scans_set_day(struct asterix_scans *scans, int64_t time_128);
 
 /* Processes a record of plots or an antenna message of a radar. */
 void asterix_scans_take_record(struct asterix_scans *scans, const struct asterix_record *record);

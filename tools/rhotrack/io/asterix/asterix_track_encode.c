@@ -53,76 +53,6 @@ static void put_scaled_unsigned(struct record_encoder *encoder, double value, do
                    bytes);
 }
 
-/* I062/080, track status: as many of its bytes as are needed for the bits set. */
-static void put_track_status(struct record_encoder *encoder, const struct asterix_track *track)
-{
-    uint8_t bytes[4] = {
-        (uint8_t)(track->is_monosensor << 7 | track->has_altitude << 5 | track->is_tentative << 1),
-        (uint8_t)(track->is_last << 6 | track->is_first << 5), 0,
-        (uint8_t)(track->is_coasting << 7)};
-    int last = track->is_coasting ? 3 : track->is_last || track->is_first ? 1 : 0;
-
-    begin_record_item(encoder, I062_080);
-    for (int i = 0; i <= last; i++) {
-        put_big_endian(encoder, bytes[i] | (i < last ? FX : 0), 1);
-    }
-}
-
-static void put_positions(struct record_encoder *encoder, const struct asterix_track *track)
-{
-    if (track->has_geodetic) {
-        begin_record_item(encoder, I062_105);
-        put_scaled_signed(encoder, track->lat_deg, 180.0 / 33554432, 4);
-        put_scaled_signed(encoder, track->lon_deg, 180.0 / 33554432, 4);
-    }
-    if (track->has_place) {
-        begin_record_item(encoder, I062_100);
-        put_scaled_signed(encoder, track->x_m, 0.5, 3);
-        put_scaled_signed(encoder, track->y_m, 0.5, 3);
-    }
-}
-
-static void put_velocity_and_accel(struct record_encoder *encoder,
-                                   const struct asterix_track *track)
-{
-    if (track->has_velocity) {
-        begin_record_item(encoder, I062_185);
-        put_scaled_signed(encoder, track->vx_mps, 0.25, 2);
-        put_scaled_signed(encoder, track->vy_mps, 0.25, 2);
-    }
-    if (track->has_accel) {
-        begin_record_item(encoder, I062_210);
-        put_scaled_signed(encoder, track->ax_mps2, 0.25, 1);
-        put_scaled_signed(encoder, track->ay_mps2, 0.25, 1);
-    }
-}
-
-static void put_altitude_and_climb(struct record_encoder *encoder,
-                                   const struct asterix_track *track)
-{
-    if (track->has_altitude) {
-        begin_record_item(encoder, I062_130);
-        put_scaled_signed(encoder, track->alt_m, 6.25 * 0.3048, 2);
-    }
-    if (track->has_climb) {
-        begin_record_item(encoder, I062_220);
-        put_scaled_signed(encoder, track->climb_mps, 6.25 * 0.3048 / 60, 2);
-    }
-}
-
-/* I062/500, accuracies: its parts APC and ATV, the first and the sixth. */
-static void put_accuracies(struct record_encoder *encoder, const struct asterix_track *track)
-{
-    if (track->has_sigma) {
-        begin_record_item(encoder, I062_500);
-        put_big_endian(encoder, 0x80 | 0x04, 1);
-        put_scaled_unsigned(encoder, track->sigma_x_m, 0.5, 2);
-        put_scaled_unsigned(encoder, track->sigma_y_m, 0.5, 2);
-        put_scaled_unsigned(encoder, track->sigma_vx_mps, 0.25, 1);
-        put_scaled_unsigned(encoder, track->sigma_vy_mps, 0.25, 1);
-    }
-}
-
 size_t asterix_track_encode(const struct asterix_track *track, uint8_t record[ASTERIX_TRACK_BYTES])
 {
     struct record_encoder encoder = {.size = 0};
@@ -133,13 +63,56 @@ size_t asterix_track_encode(const struct asterix_track *track, uint8_t record[AS
     put_big_endian(&encoder, track->source.sic, 1);
     begin_record_item(&encoder, I062_070);
     put_big_endian(&encoder, track->time_128, 3);
-    put_positions(&encoder, track);
-    put_velocity_and_accel(&encoder, track);
+    if (track->has_geodetic) {
+        begin_record_item(&encoder, I062_105);
+        put_scaled_signed(&encoder, track->lat_deg, 180.0 / 33554432, 4);
+        put_scaled_signed(&encoder, track->lon_deg, 180.0 / 33554432, 4);
+    }
+    if (track->has_place) {
+        begin_record_item(&encoder, I062_100);
+        put_scaled_signed(&encoder, track->x_m, 0.5, 3);
+        put_scaled_signed(&encoder, track->y_m, 0.5, 3);
+    }
+    if (track->has_velocity) {
+        begin_record_item(&encoder, I062_185);
+        put_scaled_signed(&encoder, track->vx_mps, 0.25, 2);
+        put_scaled_signed(&encoder, track->vy_mps, 0.25, 2);
+    }
+    if (track->has_accel) {
+        begin_record_item(&encoder, I062_210);
+        put_scaled_signed(&encoder, track->ax_mps2, 0.25, 1);
+        put_scaled_signed(&encoder, track->ay_mps2, 0.25, 1);
+    }
     begin_record_item(&encoder, I062_040);
     put_big_endian(&encoder, track->number, 2);
-    put_track_status(&encoder, track);
-    put_altitude_and_climb(&encoder, track);
-    put_accuracies(&encoder, track);
+    /* I062/080, track status: as many of its bytes as are needed for the bits set. */
+    uint8_t bytes[4] = {
+        (uint8_t)(track->is_monosensor << 7 | track->has_altitude << 5 | track->is_tentative << 1),
+        (uint8_t)(track->is_last << 6 | track->is_first << 5), 0,
+        (uint8_t)(track->is_coasting << 7)};
+    int last = track->is_coasting ? 3 : track->is_last || track->is_first ? 1 : 0;
+
+    begin_record_item(&encoder, I062_080);
+    for (int i = 0; i <= last; i++) {
+        put_big_endian(&encoder, bytes[i] | (i < last ? FX : 0), 1);
+    }
+    if (track->has_altitude) {
+        begin_record_item(&encoder, I062_130);
+        put_scaled_signed(&encoder, track->alt_m, 6.25 * 0.3048, 2);
+    }
+    if (track->has_climb) {
+        begin_record_item(&encoder, I062_220);
+        put_scaled_signed(&encoder, track->climb_mps, 6.25 * 0.3048 / 60, 2);
+    }
+    /* I062/500, accuracies: its parts APC and ATV, the first and the sixth. */
+    if (track->has_sigma) {
+        begin_record_item(&encoder, I062_500);
+        put_big_endian(&encoder, 0x80 | 0x04, 1);
+        put_scaled_unsigned(&encoder, track->sigma_x_m, 0.5, 2);
+        put_scaled_unsigned(&encoder, track->sigma_y_m, 0.5, 2);
+        put_scaled_unsigned(&encoder, track->sigma_vx_mps, 0.25, 1);
+        put_scaled_unsigned(&encoder, track->sigma_vy_mps, 0.25, 1);
+    }
     for (size_t i = 0; i < encoder.specification_size; i++) {
         bool is_last = i + 1 == encoder.specification_size;
 

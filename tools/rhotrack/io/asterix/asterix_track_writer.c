@@ -31,14 +31,14 @@ struct asterix_track_writer {
     size_t size; /* bytes of the block so far; 0: none is begun */
 };
 
-bool asterix_track_writer_path_is_asterix(const char *path)
+bool asterix_track_writer_is_path(const char *path)
 {
     return path && (path_ends_with(path, ".ast") || path_ends_with(path, ".asterix"));
 }
 
-void asterix_track_writer_refuse_covariance(const char *path, bool with_covariance)
+void asterix_track_writer_check(const char *path, bool with_covariance)
 {
-    if (with_covariance && asterix_track_writer_path_is_asterix(path)) {
+    if (with_covariance && asterix_track_writer_is_path(path)) {
         fail(EXIT_USAGE,
              "%s: CAT062 cannot hold covariances (--covariance); it has standard deviations "
              "(I062/500) in any case",
@@ -72,8 +72,6 @@ void asterix_track_writer_free(struct asterix_track_writer *tracks)
     }
 }
 
-/* ---- Blocks ---- */
-
 static void write_block(struct asterix_track_writer *tracks)
 {
     if (tracks->size > 0) {
@@ -99,8 +97,6 @@ static void add_track_record(struct asterix_track_writer *tracks, const struct a
     memcpy(tracks->block + tracks->size, record, size);
     tracks->size += size;
 }
-
-/* ---- Tracks ---- */
 
 /* Time of day in 1/128 s from utime in microseconds. */
 static uint32_t time_of_day_128(int64_t utime)
@@ -179,8 +175,6 @@ static void note_sensor_of_track(struct asterix_track_writer *tracks, int16_t se
     tracks->has_sensor = true;
 }
 
-/* ---- Lists ---- */
-
 static int by_track_id(const void *a, const void *b)
 {
     const struct entry *one = a, *other = b;
@@ -200,8 +194,7 @@ static void add_end_record(struct asterix_track_writer *tracks, const struct ent
 }
 
 /* Writes the list's tracks, and end records of those that only the list before had, by track_id. */
-static void write_track_list_and_ends_of_gone_tracks(struct asterix_track_writer *tracks,
-                                                     uint32_t time_128)
+static void write_list_and_ends(struct asterix_track_writer *tracks, uint32_t time_128)
 {
     const struct list *before = &tracks->before;
     size_t gone = 0;
@@ -231,14 +224,14 @@ static void write_and_keep_list(struct asterix_track_writer *tracks, int64_t uti
     if (tracks->now.count > 0) {
         qsort(tracks->now.entries, tracks->now.count, sizeof *tracks->now.entries, by_track_id);
     }
-    write_track_list_and_ends_of_gone_tracks(tracks, time_of_day_128(utime));
+    write_list_and_ends(tracks, time_of_day_128(utime));
     tracks->before = tracks->now;
     tracks->now = before;
     tracks->now.count = 0;
 }
 
-void asterix_track_writer_add_list_part(struct asterix_track_writer *tracks,
-                                        const struct rho_message_track_list *message)
+void asterix_track_writer_add(struct asterix_track_writer *tracks,
+                              const struct rho_message_track_list *message)
 {
     for (int i = 0; i < message->num_tracks; i++) {
         const struct rho_message_track *track = &message->tracks[i];

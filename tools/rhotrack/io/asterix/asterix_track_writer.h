@@ -24,18 +24,18 @@
 struct asterix_track_writer;
 
 /* Whether an output of this name is an ASTERIX recording: it ends with .ast or .asterix. */
-bool asterix_track_writer_path_is_asterix(const char *path);
+bool asterix_track_writer_is_path(const char *path);
 
 /* Exit 2 where an ASTERIX output is requested with covariances, for which CAT062 has no item. */
-void asterix_track_writer_refuse_covariance(const char *path, bool with_covariance);
+void asterix_track_writer_check(const char *path, bool with_covariance);
 
 /* Starts writing to a file, which the caller keeps and closes. */
 struct asterix_track_writer *asterix_track_writer_open(FILE *file,
                                                        const struct parameters *parameters);
 
 /* Adds a message of tracks; the last part of a list writes the whole list. */
-void asterix_track_writer_add_list_part(struct asterix_track_writer *tracks,
-                                        const struct rho_message_track_list *message);
+void asterix_track_writer_add(struct asterix_track_writer *tracks,
+                              const struct rho_message_track_list *message);
 void asterix_track_writer_free(
     struct asterix_track_writer *tracks); /* Frees the writer; NULL is allowed. */
 

@@ -22,8 +22,6 @@ bool asterix_udp_receiver_is_url(const char *text)
     return text_begins_with(text, SCHEME);
 }
 
-/* ---- Records ---- */
-
 /* Processes the records of a data block; false from the first one that cannot be read. */
 static bool process_block_records(struct asterix_scans *scans, const struct asterix_block *block)
 {
@@ -61,8 +59,6 @@ void asterix_datagram_take_records(struct asterix_scans *scans, const uint8_t *d
         }
     }
 }
-
-/* ---- The socket ---- */
 
 static struct sockaddr_in parse_url(const char *url)
 {

@@ -28,8 +28,6 @@ struct captured_datagrams {
     bool is_cut; /* the file ends within a packet, or is damaged */
 };
 
-/* ---- What sort of file ---- */
-
 bool captured_datagrams_is_capture(const char *path)
 {
     static const uint8_t beginnings[][4] = {
@@ -82,8 +80,6 @@ struct captured_datagrams *captured_datagrams_open(const char *path)
                                                        : "(unknown)");
     }
 }
-
-/* ---- Headers ---- */
 
 /* The bytes of a packet that are not parsed yet. */
 struct packet_rest {
@@ -163,7 +159,7 @@ static bool skip_ipv4_header(struct packet_rest *rest, bool *is_incomplete)
 }
 
 /* Skips the header of an IPv6 packet that holds UDP, without extension headers. */
-static bool skip_ipv6_header_without_extensions(struct packet_rest *rest)
+static bool skip_ipv6_header(struct packet_rest *rest)
 {
     if (rest->size < IPV6_BYTES || rest->data[0] >> 4 != 6 || rest->data[6] != PROTOCOL_UDP) {
         return false;
@@ -179,7 +175,7 @@ static bool cut_to_udp_content(struct captured_datagrams *captured, struct packe
     size_t size;
 
     if (!(type == TYPE_IPV4 ? skip_ipv4_header(rest, &is_incomplete)
-                            : type == TYPE_IPV6 && skip_ipv6_header_without_extensions(rest)) ||
+                            : type == TYPE_IPV6 && skip_ipv6_header(rest)) ||
         rest->size < UDP_BYTES) {
         captured->incomplete += is_incomplete;
         return false;
@@ -192,8 +188,6 @@ static bool cut_to_udp_content(struct captured_datagrams *captured, struct packe
     rest->size = size;
     return skip_bytes(rest, UDP_BYTES) && rest->size > 0;
 }
-
-/* ---- Packets ---- */
 
 bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_going,
                              const uint8_t **data, size_t *size)
@@ -219,7 +213,7 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
     return false;
 }
 
-uint64_t captured_datagrams_packet_number(const struct captured_datagrams *captured)
+uint64_t captured_datagrams_packet(const struct captured_datagrams *captured)
 {
     return captured->packets;
 }
@@ -229,7 +223,7 @@ const char *captured_datagrams_why_cut(const struct captured_datagrams *captured
     return captured->is_cut ? pcap_geterr(captured->capture) : NULL;
 }
 
-uint64_t captured_datagrams_num_incomplete(const struct captured_datagrams *captured)
+uint64_t captured_datagrams_incomplete(const struct captured_datagrams *captured)
 {
     return captured->incomplete;
 }

@@ -30,10 +30,10 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
                              const uint8_t **data, size_t *size);
 
 /* Number of the packet that was read last, from 1, as Wireshark counts. */
-uint64_t captured_datagrams_packet_number(const struct captured_datagrams *captured);
+uint64_t captured_datagrams_packet(const struct captured_datagrams *captured);
 
 /* Number of datagrams left out so far, since they are fragments or cut short. */
-uint64_t captured_datagrams_num_incomplete(const struct captured_datagrams *captured);
+uint64_t captured_datagrams_incomplete(const struct captured_datagrams *captured);
 
 /* Reason why the recording could not be read to its end; NULL where it could. */
 const char *captured_datagrams_why_cut(const struct captured_datagrams *captured);

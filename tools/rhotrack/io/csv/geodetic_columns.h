@@ -14,9 +14,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "io/csv/radar_angles_to_common_north_and_level.h"
-#include "io/csv/row_cells_read_and_check.h"
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/radar_axes.h"
+#include "io/csv/row_cells.h"
 #include "settings/parameters.h"
 
 struct geodetic_columns;
@@ -26,39 +25,30 @@ struct geodetic_columns;
  * Exit 2, with the header's line, where one of two columns is missing, a position is given twice,
  * there are latitudes without an origin, or two sources of heights.
  */
-struct geodetic_columns *geodetic_columns_open(const struct table *table,
-                                               const struct parameters *parameters);
-void geodetic_columns_close(
-    struct geodetic_columns *geodetic); /* frees the object; NULL is allowed */
+struct geodetic_columns *geodetic_open(const struct table *table,
+                                       const struct parameters *parameters);
+void geodetic_close(struct geodetic_columns *geodetic); /* frees the object; NULL is allowed */
 
 /* Whether the table has lat_deg and lon_deg as positions of plots or targets; false for NULL. */
-bool geodetic_columns_has_place_columns(const struct geodetic_columns *geodetic);
+bool geodetic_has_places(const struct geodetic_columns *geodetic);
 
-/*
- * The bool functions that follow and take a row_check return false where the row is bad, with the
- * reason set; geodetic_columns_row_has_place only answers its question.
- */
-
-/* Whether the row has a value in lat_deg, lon_deg or alt_m. */
-bool geodetic_columns_row_has_place(const struct geodetic_columns *geodetic,
-                                    const struct row_check *check);
+/* The functions that follow return false where the row is bad, with the reason set. */
 
 /* Reads the row's position. Without alt_m it is taken at the origin's height, and z_m is 0. */
-bool geodetic_columns_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
-                                 double place_m[3], bool *has_alt);
+bool geodetic_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
+                         double place_m[3], bool *has_alt);
 
 /*
  * The frame of the row's radar, where the row or the parameters give its position as latitude and
  * longitude; else NULL. Valid until another frame is found, or the close.
  */
-bool geodetic_columns_find_radar_frame(struct geodetic_columns *geodetic,
-                                       const struct row_check *check, int32_t sensor_id,
-                                       const struct radar_axes **frame);
+bool geodetic_radar_frame(struct geodetic_columns *geodetic, const struct row_check *check,
+                          int32_t sensor_id, const struct radar_axes **frame);
 
 /* A polar plot under conversion. */
-struct geodetic_columns_polar {
+struct geodetic_polar {
     int32_t sensor_id;
-    const struct radar_axes *frame; /* result of geodetic_columns_find_radar_frame */
+    const struct radar_axes *frame; /* result of geodetic_radar_frame */
     double place_m[3];              /* position of the radar in the local frame */
     struct radar_look look;
     bool has_elevation;
@@ -70,8 +60,7 @@ struct geodetic_columns_polar {
  * Converts angles from the radar's own frame to the local frame, and alt_m, if the row has it, to
  * an elevation.
  */
-bool geodetic_columns_turn_polar_to_local_frame(struct geodetic_columns *geodetic,
-                                                const struct row_check *check,
-                                                struct geodetic_columns_polar *polar);
+bool geodetic_turn_polar(struct geodetic_columns *geodetic, const struct row_check *check,
+                         struct geodetic_polar *polar);
 
 #endif

@@ -89,8 +89,7 @@ void local_frame_convert_place(const struct local_frame *from, const struct loca
     local_frame_to_local(to, geodetic, other_m);
 }
 
-double local_frame_meridian_convergence_rad(const struct local_frame *from,
-                                            const struct local_frame *to)
+double local_frame_convergence_rad(const struct local_frame *from, const struct local_frame *to)
 {
     static const double origin_m[3] = {0, 0, 0}, north_m[3] = {0, 1000, 0};
     double origin[3], north[3];
@@ -100,26 +99,14 @@ double local_frame_meridian_convergence_rad(const struct local_frame *from,
     return atan2(origin[0] - north[0], north[1] - origin[1]);
 }
 
-/* ---- A slant range and a height ---- */
-
-static void place_at_elevation(const struct local_frame_plot *plot, double sin_elevation,
-                               double place_m[3])
-{
-    double cos_elevation = sqrt(1 - sin_elevation * sin_elevation);
-
-    place_m[0] = plot->range_m * cos_elevation * cos(plot->azimuth_rad);
-    place_m[1] = plot->range_m * cos_elevation * sin(plot->azimuth_rad);
-    place_m[2] = plot->range_m * sin_elevation;
-}
-
 /*
  * Newton's method for the sine of the elevation, with which the height increases steadily. On a
  * sphere of radius a the height follows from the triangle with the earth's centre, (a + h)^2 = (a +
  * s)^2 + r^2 + 2 (a + s) r sin e, whose derivative is used on the ellipsoid: the error of each step
  * is relative to its flattening, 1/298.
  */
-bool local_frame_from_range_and_height(const struct local_frame *radar,
-                                       const struct local_frame_plot *plot, double place_m[3])
+bool local_frame_from_slant_range(const struct local_frame *radar,
+                                  const struct local_frame_plot *plot, double place_m[3])
 {
     enum { STEPS_MAX = 50 };
     const double tolerance_m = 1e-4;
@@ -133,7 +120,11 @@ bool local_frame_from_range_and_height(const struct local_frame *radar,
     for (int i = 0; i < STEPS_MAX; i++) {
         double found_m[3], geodetic[3];
 
-        place_at_elevation(plot, sine, found_m);
+        double cos_elevation = sqrt(1 - sine * sine);
+
+        found_m[0] = plot->range_m * cos_elevation * cos(plot->azimuth_rad);
+        found_m[1] = plot->range_m * cos_elevation * sin(plot->azimuth_rad);
+        found_m[2] = plot->range_m * sine;
         local_frame_to_geodetic(radar, found_m, geodetic);
         if (fabs(geodetic[2] - plot->alt_m) <= tolerance_m) {
             for (int axis = 0; axis < 3; axis++) {

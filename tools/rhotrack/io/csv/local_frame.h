@@ -50,8 +50,8 @@ struct local_frame_plot {
  * on the ellipsoid, to 0.1 mm. Returns false, with place_m unchanged, where the height differs from
  * the radar's by more than range_m.
  */
-bool local_frame_from_range_and_height(const struct local_frame *radar,
-                                       const struct local_frame_plot *plot, double place_m[3]);
+bool local_frame_from_slant_range(const struct local_frame *radar,
+                                  const struct local_frame_plot *plot, double place_m[3]);
 
 /* Converts a position from one frame to another. Both arrays may be the same. */
 void local_frame_convert_place(const struct local_frame *from, const struct local_frame *to,
@@ -63,7 +63,6 @@ void local_frame_convert_place(const struct local_frame *from, const struct loca
  * `to`, except for the tilt of the horizons (0.9 degrees at 100 km, which turns level lines by at
  * most 0.00013 rad).
  */
-double local_frame_meridian_convergence_rad(const struct local_frame *from,
-                                            const struct local_frame *to);
+double local_frame_convergence_rad(const struct local_frame *from, const struct local_frame *to);
 
 #endif

@@ -1,168 +1,127 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/csv/measurement_row.h"
 
-#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/row_cells.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
 
 /* A row being read and checked. */
 struct row_reading {
     struct row_check cells;
-    const struct measurement_row_columns *columns;
+    const struct measurement_columns *columns;
+    const struct parameters *parameters;
 };
 
-/* ---- Columns ---- */
-
-bool measurement_row_table_has_bearings(const struct table *table)
+static bool has_bearings_alone(const struct columns *columns)
 {
-    return table_find_column(table, "bearing_rad") >= 0 && table_find_column(table, "x_m") < 0 &&
-           table_find_column(table, "range_m") < 0;
+    return columns->at[COL_BEARING_RAD] >= 0 && columns->at[COL_X_M] < 0 &&
+           columns->at[COL_RANGE_M] < 0;
 }
 
-/* Refuses bearings by name, rather than with a missing x_m. */
-static void refuse_bearings_as_plots(const struct table *table)
+bool measurement_row_is_bearings(const struct table *table)
 {
-    if (table_find_column(table, "x_m") < 0 && table_find_column(table, "range_m") < 0 &&
-        table_find_column(table, "bearing_rad") >= 0) {
-        table_fail_at_row(table, TABLE_HEADER,
+    const struct columns columns = columns_find(table);
+
+    return has_bearings_alone(&columns);
+}
+
+static void check_bearing_columns(struct columns *columns)
+{
+    /* Refuses plots by name, rather than with a missing bearing_rad. */
+    static const struct {
+        enum column_id column;
+        const char *text;
+    } others[] = {{COL_X_M, "plots, not bearings"}, {COL_RANGE_M, "polar plots, not bearings"}};
+
+    for (size_t i = 0; columns->at[COL_BEARING_RAD] < 0 && i < sizeof others / sizeof *others;
+         i++) {
+        if (columns->at[others[i].column] >= 0) {
+            table_fail_at_row(columns->table, TABLE_HEADER,
+                              "%s (column '%s'): column 'bearing_rad' is missing", others[i].text,
+                              column_name(others[i].column));
+        }
+    }
+    columns_need_both(columns, COL_SECTOR_FROM_RAD, COL_SECTOR_TO_RAD);
+    (void)columns_need(columns, COL_T_S);
+    (void)columns_need(columns, COL_SENSOR_ID);
+    (void)columns_need(columns, COL_SENSOR_X_M);
+    (void)columns_need(columns, COL_SENSOR_Y_M);
+    (void)columns_need(columns, COL_BEARING_RAD);
+    columns->at[COL_RECEIVED_S] = -1;
+}
+
+static void leave_cartesian_columns(struct columns *columns)
+{
+    static const enum column_id cartesian[] = {COL_Y_M, COL_Z_M, COL_VX_MPS, COL_VY_MPS,
+                                               COL_VZ_MPS};
+
+    for (size_t i = 0; i < sizeof cartesian / sizeof *cartesian; i++) {
+        columns->at[cartesian[i]] = -1;
+    }
+}
+
+static void check_plot_columns(struct columns *columns, bool needs_sensor)
+{
+    const bool is_polar = columns->at[COL_RANGE_M] >= 0;
+
+    if (has_bearings_alone(columns)) {
+        table_fail_at_row(columns->table, TABLE_HEADER,
                           "bearings (column 'bearing_rad') cannot be read from a pipe; for plots, "
                           "columns 'x_m' and 'y_m' are missing");
     }
+    (void)columns_need(columns, COL_T_S);
+    if (needs_sensor) {
+        (void)columns_need(columns, COL_SENSOR_ID);
+    }
+    if (!is_polar && columns->at[COL_LAT_DEG] < 0) {
+        (void)columns_need(columns, COL_X_M);
+        (void)columns_need(columns, COL_Y_M);
+    }
+    columns_refuse_both(columns, COL_RANGE_M, COL_X_M);
+    columns_refuse_two_units(columns, COL_AZIMUTH_RAD);
+    columns_refuse_two_units(columns, COL_ELEVATION_RAD);
+    if (is_polar) {
+        (void)columns_need(columns, COL_AZIMUTH_RAD);
+        leave_cartesian_columns(columns);
+    }
+    columns_need_both(columns, COL_SENSOR_X_M, COL_SENSOR_Y_M);
+    columns_need_both(columns, COL_VX_MPS, COL_VY_MPS);
+    columns_need_both(columns, COL_SECTOR_FROM_RAD, COL_SECTOR_TO_RAD);
 }
 
-static void check_not_both_columns(const struct table *table, int first, int second)
+struct measurement_columns measurement_columns_find(const struct table *table,
+                                                    const struct parameters *parameters,
+                                                    enum record_kind kind, bool needs_sensor)
 {
-    if (first >= 0 && second >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "columns '%s' and '%s' exclude each other",
-                          table->names[first], table->names[second]);
+    struct measurement_columns columns = {.in_file = columns_find(table),
+                                          .is_bearings = kind == RECORD_BEARINGS};
+
+    if (columns.is_bearings) {
+        check_bearing_columns(&columns.in_file);
+    } else {
+        check_plot_columns(&columns.in_file, needs_sensor && parameters->num_sensors > 0);
+        columns.geodetic = geodetic_open(table, parameters);
     }
-}
-
-/* Refuses plots by name, rather than with a missing bearing_rad. */
-static void refuse_plots_as_bearings(const struct table *table)
-{
-    static const char *const others[][2] = {{"x_m", "plots, not bearings"},
-                                            {"range_m", "polar plots, not bearings"}};
-
-    if (table_find_column(table, "bearing_rad") >= 0) {
-        return;
-    }
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        if (table_find_column(table, others[i][0]) >= 0) {
-            table_fail_at_row(table, TABLE_HEADER,
-                              "%s (column '%s'): column 'bearing_rad' is missing", others[i][1],
-                              others[i][0]);
-        }
-    }
-}
-
-static struct measurement_row_columns find_bearing_columns(const struct table *table)
-{
-    refuse_plots_as_bearings(table);
-    row_need_both_columns_or_neither(table, "sector_from_rad", "sector_to_rad");
-    return (struct measurement_row_columns){
-        .is_bearings = true,
-        .t_s = table_need_column(table, "t_s"),
-        .received_s = -1,
-        .sensor_id = table_need_column(table, "sensor_id"),
-        .sensor_x_m = table_need_column(table, "sensor_x_m"),
-        .sensor_y_m = table_need_column(table, "sensor_y_m"),
-        .bearing_rad = table_need_column(table, "bearing_rad"),
-        .sigma_rad = table_find_column(table, "sigma_rad"),
-        .sector_from_rad = table_find_column(table, "sector_from_rad"),
-        .sector_to_rad = table_find_column(table, "sector_to_rad"),
-        .snr_db = table_find_column(table, "snr_db"),
-        .scan = table_find_column(table, "scan"),
-        .epoch = table_find_column(table, "epoch"),
-    };
-}
-
-static struct measurement_row_columns
-find_plot_columns(const struct table *table, const struct parameters *parameters, bool needs_sensor)
-{
-    struct measurement_row_columns columns;
-    bool is_polar, has_no_xy;
-
-    refuse_bearings_as_plots(table);
-    is_polar = table_find_column(table, "range_m") >= 0;
-    has_no_xy = is_polar || table_find_column(table, "lat_deg") >= 0;
-    columns = (struct measurement_row_columns){
-        .t_s = table_need_column(table, "t_s"),
-        .received_s = table_find_column(table, "received_s"),
-        .sensor_id = needs_sensor && parameters->num_sensors > 0
-                         ? table_need_column(table, "sensor_id")
-                         : table_find_column(table, "sensor_id"),
-        .x_m = has_no_xy ? table_find_column(table, "x_m") : table_need_column(table, "x_m"),
-        .y_m = has_no_xy ? -1 : table_need_column(table, "y_m"),
-        .z_m = is_polar ? -1 : table_find_column(table, "z_m"),
-        .vx_mps = is_polar ? -1 : table_find_column(table, "vx_mps"),
-        .vy_mps = is_polar ? -1 : table_find_column(table, "vy_mps"),
-        .vz_mps = is_polar ? -1 : table_find_column(table, "vz_mps"),
-        .sigma_m = table_find_column(table, "sigma_m"),
-        .sigma_mps = table_find_column(table, "sigma_mps"),
-        .range_m = table_find_column(table, "range_m"),
-        .azimuth_rad = table_find_column(table, "azimuth_rad"),
-        .azimuth_deg = table_find_column(table, "azimuth_deg"),
-        .elevation_rad = table_find_column(table, "elevation_rad"),
-        .elevation_deg = table_find_column(table, "elevation_deg"),
-        .range_rate_mps = table_find_column(table, "range_rate_mps"),
-        .sigma_range_m = table_find_column(table, "sigma_range_m"),
-        .sigma_azimuth_rad = table_find_column(table, "sigma_azimuth_rad"),
-        .sigma_elevation_rad = table_find_column(table, "sigma_elevation_rad"),
-        .sigma_range_rate_mps = table_find_column(table, "sigma_range_rate_mps"),
-        .sensor_x_m = table_find_column(table, "sensor_x_m"),
-        .sensor_y_m = table_find_column(table, "sensor_y_m"),
-        .sensor_z_m = table_find_column(table, "sensor_z_m"),
-        .sector_from_rad = table_find_column(table, "sector_from_rad"),
-        .sector_to_rad = table_find_column(table, "sector_to_rad"),
-        .snr_db = table_find_column(table, "snr_db"),
-        .scan = table_find_column(table, "scan"),
-        .epoch = table_find_column(table, "epoch"),
-    };
-    check_not_both_columns(table, columns.range_m, columns.x_m);
-    check_not_both_columns(table, columns.azimuth_rad, columns.azimuth_deg);
-    check_not_both_columns(table, columns.elevation_rad, columns.elevation_deg);
-    if (is_polar && columns.azimuth_deg < 0) {
-        (void)table_need_column(table, "azimuth_rad");
-    }
-    row_need_both_columns_or_neither(table, "sensor_x_m", "sensor_y_m");
-    row_need_both_columns_or_neither(table, "vx_mps", "vy_mps");
-    row_need_both_columns_or_neither(table, "sector_from_rad", "sector_to_rad");
-    columns.geodetic = geodetic_columns_open(table, parameters);
     return columns;
 }
 
-struct measurement_row_columns measurement_row_columns_find(const struct table *table,
-                                                            const struct parameters *parameters,
-                                                            enum record_kind kind,
-                                                            bool needs_sensor)
+void measurement_columns_free(struct measurement_columns *columns)
 {
-    return kind == RECORD_BEARINGS ? find_bearing_columns(table)
-                                   : find_plot_columns(table, parameters, needs_sensor);
-}
-
-void measurement_row_columns_free(struct measurement_row_columns *columns)
-{
-    geodetic_columns_close(columns->geodetic);
+    geodetic_close(columns->geodetic);
     columns->geodetic = NULL;
 }
 
-/* ---- Cells ---- */
-
-static bool read_speed(const struct row_reading *reading, int column, float *value)
+static bool read_speed(const struct row_reading *reading, enum column_id column, float *value)
 {
     return row_read_float(&reading->cells, column, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS,
                           value);
 }
 
-/* ---- Rows ---- */
-
 static bool read_velocity(const struct row_reading *reading, struct measurement_row *row)
 {
-    const struct measurement_row_columns *columns = reading->columns;
-    bool has_vx = row_has_cell(&reading->cells, columns->vx_mps),
-         has_vy = row_has_cell(&reading->cells, columns->vy_mps);
-    bool has_vz = row_has_cell(&reading->cells, columns->vz_mps);
+    bool has_vx = row_has_cell(&reading->cells, COL_VX_MPS),
+         has_vy = row_has_cell(&reading->cells, COL_VY_MPS);
+    bool has_vz = row_has_cell(&reading->cells, COL_VZ_MPS);
 
     if (!has_vx && !has_vy && !has_vz) {
         return true;
@@ -175,13 +134,13 @@ static bool read_velocity(const struct row_reading *reading, struct measurement_
         return row_refuse(&reading->cells, "vz_mps is missing beside z_m and vx_mps");
     }
     row->measures |= RHO_MEASURES_VELOCITY;
-    return read_speed(reading, columns->vx_mps, &row->plot.vx_mps) &&
-           read_speed(reading, columns->vy_mps, &row->plot.vy_mps) &&
-           (!has_vz || read_speed(reading, columns->vz_mps, &row->plot.vz_mps));
+    return read_speed(reading, COL_VX_MPS, &row->plot.vx_mps) &&
+           read_speed(reading, COL_VY_MPS, &row->plot.vy_mps) &&
+           (!has_vz || read_speed(reading, COL_VZ_MPS, &row->plot.vz_mps));
 }
 
 /* Reads a sigma: the row's own, else `otherwise`, the sensor's or the common one. */
-static bool read_sigma(const struct row_reading *reading, int column, double otherwise,
+static bool read_sigma(const struct row_reading *reading, enum column_id column, double otherwise,
                        float *value)
 {
     if (row_has_cell(&reading->cells, column)) {
@@ -192,69 +151,66 @@ static bool read_sigma(const struct row_reading *reading, int column, double oth
     return true;
 }
 
-/* Reads a range rate, if the row has one, and its sigma. */
-static bool read_range_rate(const struct row_reading *reading, const struct parameters *parameters,
-                            int32_t sensor_id, uint32_t *measures, float *rate_mps,
-                            float *sigma_mps)
+/* A parameter of the sensor, else the common one. */
+static double value_of_sensor(const struct row_reading *reading, int32_t sensor_id,
+                              enum sensor_parameter_id own, enum parameter_id common)
 {
-    double otherwise =
-        parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_RATE_MPS,
-                                   parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS]);
+    return parameters_value_of_sensor(reading->parameters, sensor_id, own,
+                                      reading->parameters->value[common]);
+}
 
-    if (!row_has_cell(&reading->cells, reading->columns->range_rate_mps)) {
+/* Reads a range rate, if the row has one, and its sigma. */
+static bool read_range_rate(const struct row_reading *reading, int32_t sensor_id,
+                            uint32_t *measures, float *rate_mps, float *sigma_mps)
+{
+    if (!row_has_cell(&reading->cells, COL_RANGE_RATE_MPS)) {
         return true;
     }
     *measures |= RHO_MEASURES_RANGE_RATE;
-    return read_speed(reading, reading->columns->range_rate_mps, rate_mps) &&
-           read_sigma(reading, reading->columns->sigma_range_rate_mps, otherwise, sigma_mps);
+    return read_speed(reading, COL_RANGE_RATE_MPS, rate_mps) &&
+           read_sigma(reading, COL_SIGMA_RANGE_RATE_MPS,
+                      value_of_sensor(reading, sensor_id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                      PARAMETER_SIGMA_RANGE_RATE_MPS),
+                      sigma_mps);
 }
 
-static bool read_sigmas(const struct row_reading *reading, const struct parameters *parameters,
-                        struct measurement_row *row)
+static bool read_sigmas(const struct row_reading *reading, struct measurement_row *row)
 {
-    double sigma_m = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_M,
-                                                parameters->value[PARAMETER_SIGMA_M]);
-    double sigma_mps = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_MPS,
-                                                  parameters->value[PARAMETER_SIGMA_MPS]);
+    const int32_t id = row->sensor_id;
     struct rho_plot *plot = &row->plot;
 
-    if (!read_sigma(reading, reading->columns->sigma_m, sigma_m, &plot->sigma_range_m) ||
-        !read_sigma(reading, reading->columns->sigma_mps, sigma_mps, &plot->sigma_mps)) {
+    if (!read_sigma(reading, COL_SIGMA_M,
+                    value_of_sensor(reading, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M),
+                    &plot->sigma_range_m) ||
+        !read_sigma(reading, COL_SIGMA_MPS,
+                    value_of_sensor(reading, id, SENSOR_SIGMA_MPS, PARAMETER_SIGMA_MPS),
+                    &plot->sigma_mps)) {
         return false;
     }
     plot->sigma_cross_m = plot->sigma_up_m = plot->sigma_range_m;
     return true;
 }
 
-static bool read_geodetic_place(const struct row_reading *reading, struct rho_plot *plot,
-                                bool *has_z)
-{
-    double place_m[3];
-
-    if (!geodetic_columns_read_place(reading->columns->geodetic, &reading->cells, place_m, has_z)) {
-        return false;
-    }
-    plot->x_m = (float)place_m[0];
-    plot->y_m = (float)place_m[1];
-    plot->z_m = (float)place_m[2];
-    return true;
-}
-
 static bool read_place(const struct row_reading *reading, struct rho_plot *plot, bool *has_z)
 {
-    const struct measurement_row_columns *columns = reading->columns;
+    if (geodetic_has_places(reading->columns->geodetic)) {
+        double place_m[3];
 
-    if (geodetic_columns_has_place_columns(columns->geodetic)) {
-        return read_geodetic_place(reading, plot, has_z);
+        if (!geodetic_read_place(reading->columns->geodetic, &reading->cells, place_m, has_z)) {
+            return false;
+        }
+        plot->x_m = (float)place_m[0];
+        plot->y_m = (float)place_m[1];
+        plot->z_m = (float)place_m[2];
+        return true;
     }
-    *has_z = row_has_cell(&reading->cells, columns->z_m);
-    return row_read_position(&reading->cells, columns->x_m, &plot->x_m) &&
-           row_read_position(&reading->cells, columns->y_m, &plot->y_m) &&
-           (!*has_z || row_read_position(&reading->cells, columns->z_m, &plot->z_m));
+    *has_z = row_has_cell(&reading->cells, COL_Z_M);
+    return row_read_position(&reading->cells, COL_X_M, &plot->x_m) &&
+           row_read_position(&reading->cells, COL_Y_M, &plot->y_m) &&
+           (!*has_z || row_read_position(&reading->cells, COL_Z_M, &plot->z_m));
 }
 
-static bool read_cartesian_plot(const struct row_reading *reading,
-                                const struct parameters *parameters, struct measurement_row *row)
+static bool read_cartesian_plot(const struct row_reading *reading, struct measurement_row *row)
 {
     bool has_z = false;
 
@@ -263,85 +219,69 @@ static bool read_cartesian_plot(const struct row_reading *reading,
         return false;
     }
     row->measures = has_z ? RHO_MEASURES_Z : 0;
-    return read_velocity(reading, row) && read_sigmas(reading, parameters, row) &&
-           read_range_rate(reading, parameters, row->sensor_id, &row->measures,
-                           &row->plot.range_rate_mps, &row->plot.sigma_range_rate_mps) &&
-           row_read_snr(&reading->cells, reading->columns->snr_db, &row->plot.snr_db);
+    return read_velocity(reading, row) && read_sigmas(reading, row) &&
+           read_range_rate(reading, row->sensor_id, &row->measures, &row->plot.range_rate_mps,
+                           &row->plot.sigma_range_rate_mps) &&
+           row_read_snr(&reading->cells, &row->plot.snr_db);
 }
 
-/* ---- Polar rows ---- */
-
-#define DEG_RAD 0.017453292519943295
 #define PI 3.141592653589793
 
 static bool read_range(const struct row_reading *reading, float *range_m)
 {
-    int column = reading->columns->range_m;
-
-    if (!row_read_float(&reading->cells, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
+    if (!row_read_float(&reading->cells, COL_RANGE_M, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
                         range_m)) {
         return false;
     }
-    return *range_m > 0.0f || row_refuse_cell(&reading->cells, column, "is not above 0");
+    return *range_m > 0.0f || row_refuse_cell(&reading->cells, COL_RANGE_M, "is not above 0");
 }
 
 static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
 {
-    const struct measurement_row_columns *columns = reading->columns;
-    float azimuth_deg = 0.0f;
-
-    if (columns->azimuth_deg < 0) {
-        return row_read_and_wrap_angle_rad(&reading->cells, columns->azimuth_rad, azimuth_rad);
+    if (!columns_has_degrees(&reading->columns->in_file, COL_AZIMUTH_RAD)) {
+        return row_read_and_wrap_angle_rad(&reading->cells, COL_AZIMUTH_RAD, azimuth_rad);
     }
-    if (!row_read_float(&reading->cells, columns->azimuth_deg, -(float)ROW_ANGLE_MAX,
-                        (float)ROW_ANGLE_MAX, &azimuth_deg)) {
+    if (!row_read_float(&reading->cells, COL_AZIMUTH_RAD, -(float)ROW_ANGLE_MAX,
+                        (float)ROW_ANGLE_MAX, azimuth_rad)) {
         return false;
     }
-    *azimuth_rad = (float)row_radians_from_compass_deg((double)azimuth_deg);
+    *azimuth_rad = (float)column_radians(COL_AZIMUTH_RAD, (double)*azimuth_rad);
     return true;
 }
 
 static bool read_elevation(const struct row_reading *reading, uint32_t *measures,
                            float *elevation_rad)
 {
-    const struct measurement_row_columns *columns = reading->columns;
+    const bool is_degrees = columns_has_degrees(&reading->columns->in_file, COL_ELEVATION_RAD);
+    const float limit = is_degrees ? 90.0f : (float)(PI / 2);
 
-    if (row_has_cell(&reading->cells, columns->elevation_rad)) {
-        *measures |= RHO_MEASURES_Z;
-        return row_read_float(&reading->cells, columns->elevation_rad, -(float)(PI / 2),
-                              (float)(PI / 2), elevation_rad);
+    if (!row_has_cell(&reading->cells, COL_ELEVATION_RAD)) {
+        return true;
     }
-    if (row_has_cell(&reading->cells, columns->elevation_deg)) {
-        *measures |= RHO_MEASURES_Z;
-        if (!row_read_float(&reading->cells, columns->elevation_deg, -90.0f, 90.0f,
-                            elevation_rad)) {
-            return false;
-        }
-        *elevation_rad = (float)((double)*elevation_rad * DEG_RAD);
+    *measures |= RHO_MEASURES_Z;
+    if (!row_read_float(&reading->cells, COL_ELEVATION_RAD, -limit, limit, elevation_rad)) {
+        return false;
+    }
+    if (is_degrees) {
+        *elevation_rad = (float)column_radians(COL_ELEVATION_RAD, (double)*elevation_rad);
     }
     return true;
 }
 
-static bool read_polar_sigmas(const struct row_reading *reading,
-                              const struct parameters *parameters, int32_t sensor_id,
+static bool read_polar_sigmas(const struct row_reading *reading, int32_t sensor_id,
                               struct rho_polar_plot *polar)
 {
-    const struct measurement_row_columns *columns = reading->columns;
-    const double *value = parameters->value;
-
-    return read_sigma(reading, columns->sigma_range_m,
-                      parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
-                                                 value[PARAMETER_SIGMA_RANGE_M]),
-                      &polar->sigma_range_m) &&
-           row_read_sigma_rad(&reading->cells, columns->sigma_azimuth_rad,
-                              parameters_value_of_sensor(parameters, sensor_id,
-                                                         SENSOR_SIGMA_AZIMUTH_RAD,
-                                                         value[PARAMETER_SIGMA_AZIMUTH_RAD]),
+    return read_sigma(
+               reading, COL_SIGMA_RANGE_M,
+               value_of_sensor(reading, sensor_id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M),
+               &polar->sigma_range_m) &&
+           row_read_sigma_rad(&reading->cells, COL_SIGMA_AZIMUTH_RAD,
+                              value_of_sensor(reading, sensor_id, SENSOR_SIGMA_AZIMUTH_RAD,
+                                              PARAMETER_SIGMA_AZIMUTH_RAD),
                               &polar->sigma_azimuth_rad) &&
-           row_read_sigma_rad(&reading->cells, columns->sigma_elevation_rad,
-                              parameters_value_of_sensor(parameters, sensor_id,
-                                                         SENSOR_SIGMA_ELEVATION_RAD,
-                                                         value[PARAMETER_SIGMA_ELEVATION_RAD]),
+           row_read_sigma_rad(&reading->cells, COL_SIGMA_ELEVATION_RAD,
+                              value_of_sensor(reading, sensor_id, SENSOR_SIGMA_ELEVATION_RAD,
+                                              PARAMETER_SIGMA_ELEVATION_RAD),
                               &polar->sigma_elevation_rad);
 }
 
@@ -353,7 +293,7 @@ static bool convert_to_local_frame(const struct row_reading *reading,
                                    const struct measurement_row *row, uint32_t *measures,
                                    struct rho_polar_plot *polar)
 {
-    struct geodetic_columns_polar seen = {
+    struct geodetic_polar seen = {
         .sensor_id = row->sensor_id,
         .frame = row->frame,
         .place_m = {(double)row->sensor.x_m, (double)row->sensor.y_m, (double)row->sensor.z_m},
@@ -362,8 +302,7 @@ static bool convert_to_local_frame(const struct row_reading *reading,
         .sigma_range_m = (double)polar->sigma_range_m,
         .sigma_elevation_rad = (double)polar->sigma_elevation_rad};
 
-    if (!geodetic_columns_turn_polar_to_local_frame(reading->columns->geodetic, &reading->cells,
-                                                    &seen)) {
+    if (!geodetic_turn_polar(reading->columns->geodetic, &reading->cells, &seen)) {
         return false;
     }
     polar->azimuth_rad = (float)seen.look.azimuth_rad;
@@ -373,8 +312,7 @@ static bool convert_to_local_frame(const struct row_reading *reading,
     return true;
 }
 
-static bool read_polar_plot(const struct row_reading *reading, const struct parameters *parameters,
-                            struct measurement_row *row)
+static bool read_polar_plot(const struct row_reading *reading, struct measurement_row *row)
 {
     struct rho_polar_plot polar = {0};
     struct rho_sensor seen_from = row->sensor;
@@ -384,11 +322,11 @@ static bool read_polar_plot(const struct row_reading *reading, const struct para
     row->measures = 0;
     if (!read_range(reading, &polar.range_m) || !read_azimuth(reading, &polar.azimuth_rad) ||
         !read_elevation(reading, &row->measures, &polar.elevation_rad) ||
-        !read_polar_sigmas(reading, parameters, row->sensor_id, &polar) ||
+        !read_polar_sigmas(reading, row->sensor_id, &polar) ||
         !convert_to_local_frame(reading, row, &row->measures, &polar) ||
-        !read_range_rate(reading, parameters, row->sensor_id, &row->measures, &polar.range_rate_mps,
+        !read_range_rate(reading, row->sensor_id, &row->measures, &polar.range_rate_mps,
                          &polar.sigma_range_rate_mps) ||
-        !row_read_snr(&reading->cells, reading->columns->snr_db, &polar.snr_db)) {
+        !row_read_snr(&reading->cells, &polar.snr_db)) {
         return false;
     }
     if (rho_measurement_from_polar(&polar, row->measures, &seen_from, &row->plot) != RHO_OK) {
@@ -400,13 +338,11 @@ static bool read_polar_plot(const struct row_reading *reading, const struct para
     return true;
 }
 
-/* ---- Sensors ---- */
-
 /*
  * Sets the sensor's position from its radar frame, and turns the row's sector, which counts from
  * the radar's own east; sectors in the parameters have been turned already.
  */
-static void set_radar_place_and_rotate_sector_to_local(struct measurement_row *row)
+static void set_radar_place(struct measurement_row *row)
 {
     const double *place_m = radar_axes_place_m(row->frame);
     float turn_rad = (float)radar_axes_turn_rad(row->frame);
@@ -427,130 +363,108 @@ static void set_radar_place_and_rotate_sector_to_local(struct measurement_row *r
  * that of the scan before.
  */
 static bool set_sensor_at_position_of_row(const struct row_reading *reading,
-                                          const struct parameters *parameters,
                                           struct measurement_row *row)
 {
-    const struct measurement_row_columns *columns = reading->columns;
-    bool has_place = row_has_cell(&reading->cells, columns->sensor_x_m) ||
-                     row_has_cell(&reading->cells, columns->sensor_y_m);
-    bool has_height = row_has_cell(&reading->cells, columns->sensor_z_m);
+    const struct measurement_columns *columns = reading->columns;
+    bool has_place = row_has_cell(&reading->cells, COL_SENSOR_X_M) ||
+                     row_has_cell(&reading->cells, COL_SENSOR_Y_M);
+    bool has_height = row_has_cell(&reading->cells, COL_SENSOR_Z_M);
 
-    row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
-                      columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
-    parameters_to_sensor_or_defaults(parameters, row->sensor_id, &row->sensor);
+    row->has_sensor = parameters_to_sensor(reading->parameters, row->sensor_id, &row->sensor) ||
+                      columns->in_file.at[COL_SENSOR_X_M] >= 0 ||
+                      columns->in_file.at[COL_SENSOR_Z_M] >= 0;
+    parameters_sensor_or_default(reading->parameters, row->sensor_id, &row->sensor);
     row->bias_us = rho_measurement_time_bias_us(&row->sensor);
-    if (!geodetic_columns_find_radar_frame(columns->geodetic, &reading->cells, row->sensor_id,
-                                           &row->frame)) {
+    if (!geodetic_radar_frame(columns->geodetic, &reading->cells, row->sensor_id, &row->frame)) {
         return false;
     }
     if (row->frame) {
-        set_radar_place_and_rotate_sector_to_local(row);
+        set_radar_place(row);
         return true;
     }
-    return (!has_place ||
-            (row_read_position(&reading->cells, columns->sensor_x_m, &row->sensor.x_m) &&
-             row_read_position(&reading->cells, columns->sensor_y_m, &row->sensor.y_m))) &&
-           (!has_height ||
-            row_read_position(&reading->cells, columns->sensor_z_m, &row->sensor.z_m));
+    return (!has_place || (row_read_position(&reading->cells, COL_SENSOR_X_M, &row->sensor.x_m) &&
+                           row_read_position(&reading->cells, COL_SENSOR_Y_M, &row->sensor.y_m))) &&
+           (!has_height || row_read_position(&reading->cells, COL_SENSOR_Z_M, &row->sensor.z_m));
 }
 
-/* ---- Bearings ---- */
-
-/* Subtracts the sensor's azimuth bias; the time bias is subtracted from the scan's time. */
-static void subtract_azimuth_bias_from_bearing(const struct parameters *parameters,
-                                               struct measurement_row *row)
+static bool read_bearing(const struct row_reading *reading, struct measurement_row *row)
 {
-    double bias_rad =
-        parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_AZIMUTH_BIAS_RAD, 0.0);
+    const struct row_check *check = &reading->cells;
+    const double bias_rad = parameters_value_of_sensor(reading->parameters, row->sensor_id,
+                                                       SENSOR_AZIMUTH_BIAS_RAD, 0.0);
 
+    row->has_measurement = true;
+    if (!row_read_and_wrap_angle_rad(check, COL_BEARING_RAD, &row->bearing.bearing_rad)) {
+        return false;
+    }
+    /* the time bias is subtracted from the scan's time instead */
     if (bias_rad < 0.0 || bias_rad > 0.0) {
         row->bearing.bearing_rad = rho_angle_difference(row->bearing.bearing_rad, (float)bias_rad);
     }
+    return row_read_sigma_rad(
+               check, COL_SIGMA_RAD,
+               value_of_sensor(reading, row->sensor_id, SENSOR_SIGMA_RAD, PARAMETER_SIGMA_RAD),
+               &row->bearing.sigma_rad) &&
+           row_read_snr(check, &row->bearing.snr_db);
 }
 
-static bool read_bearing(const struct row_reading *reading, const struct parameters *parameters,
-                         struct measurement_row *row)
+static bool read_bearings_row(const struct row_reading *reading, struct measurement_row *row)
 {
     const struct row_check *check = &reading->cells;
-    const struct measurement_row_columns *columns = reading->columns;
-    double sigma_rad = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_RAD,
-                                                  parameters->value[PARAMETER_SIGMA_RAD]);
 
-    row->has_measurement = true;
-    if (!row_read_and_wrap_angle_rad(check, columns->bearing_rad, &row->bearing.bearing_rad)) {
+    if (!row_read_position(check, COL_SENSOR_X_M, &row->sensor.x_m) ||
+        !row_read_position(check, COL_SENSOR_Y_M, &row->sensor.y_m) ||
+        !row_read_sector(check, &row->sector_from_rad, &row->sector_to_rad)) {
         return false;
     }
-    subtract_azimuth_bias_from_bearing(parameters, row);
-    return row_read_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
-           row_read_snr(check, columns->snr_db, &row->bearing.snr_db);
-}
-
-static bool read_bearings_row(const struct row_reading *reading,
-                              const struct parameters *parameters, struct measurement_row *row)
-{
-    const struct row_check *check = &reading->cells;
-    const struct measurement_row_columns *columns = reading->columns;
-
-    if (!row_read_position(check, columns->sensor_x_m, &row->sensor.x_m) ||
-        !row_read_position(check, columns->sensor_y_m, &row->sensor.y_m) ||
-        !row_read_sector(check, columns->sector_from_rad, columns->sector_to_rad,
-                         &row->sector_from_rad, &row->sector_to_rad)) {
-        return false;
-    }
-    row->bias_us = parameters_time_bias_us(parameters, row->sensor_id);
+    row->bias_us = parameters_time_bias_us(reading->parameters, row->sensor_id);
     return row_check_unbiased_time(check, row->time_us, row->bias_us) &&
-           (!row_has_cell(check, columns->bearing_rad) || read_bearing(reading, parameters, row));
+           (!row_has_cell(check, COL_BEARING_RAD) || read_bearing(reading, row));
 }
 
-/* ---- All ---- */
-
-static bool has_plot(const struct row_reading *reading)
+static bool has_plot(const struct row_check *check)
 {
-    const struct measurement_row_columns *columns = reading->columns;
-    const int measured[] = {
-        columns->x_m,           columns->y_m,           columns->z_m,
-        columns->vx_mps,        columns->vy_mps,        columns->vz_mps,
-        columns->range_m,       columns->azimuth_rad,   columns->azimuth_deg,
-        columns->elevation_rad, columns->elevation_deg, columns->range_rate_mps};
-    bool has_any = geodetic_columns_row_has_place(columns->geodetic, &reading->cells);
+    static const enum column_id measured[] = {
+        COL_X_M,     COL_Y_M,     COL_Z_M,         COL_VX_MPS,        COL_VY_MPS,
+        COL_VZ_MPS,  COL_RANGE_M, COL_AZIMUTH_RAD, COL_ELEVATION_RAD, COL_RANGE_RATE_MPS,
+        COL_LAT_DEG, COL_LON_DEG, COL_ALT_M};
+    bool has_any = false;
 
     for (size_t i = 0; i < sizeof measured / sizeof *measured; i++) {
-        has_any |= row_has_cell(&reading->cells, measured[i]);
+        has_any |= row_has_cell(check, measured[i]);
     }
     return has_any;
 }
 
-static bool read_plots_row(const struct row_reading *reading, const struct parameters *parameters,
-                           struct measurement_row *row)
+static bool read_plots_row(const struct row_reading *reading, struct measurement_row *row)
 {
     const struct row_check *check = &reading->cells;
-    const struct measurement_row_columns *columns = reading->columns;
 
-    if (!row_read_sector(check, columns->sector_from_rad, columns->sector_to_rad,
-                         &row->sector_from_rad, &row->sector_to_rad) ||
-        !set_sensor_at_position_of_row(reading, parameters, row) ||
+    if (!row_read_sector(check, &row->sector_from_rad, &row->sector_to_rad) ||
+        !set_sensor_at_position_of_row(reading, row) ||
         !row_check_unbiased_time(check, row->time_us, row->bias_us)) {
         return false;
     }
-    if (!has_plot(reading)) {
+    if (!has_plot(check)) {
         return true;
     }
-    return columns->range_m >= 0 ? read_polar_plot(reading, parameters, row)
-                                 : read_cartesian_plot(reading, parameters, row);
+    return reading->columns->in_file.at[COL_RANGE_M] >= 0 ? read_polar_plot(reading, row)
+                                                          : read_cartesian_plot(reading, row);
 }
 
-bool measurement_row_read(const struct table *table, const struct measurement_row_columns *columns,
-                          size_t row, const struct parameters *parameters,
-                          struct measurement_row *record, char reason[ROW_REASON_BYTES])
+bool measurement_row_read(const struct measurement_columns *columns, size_t row,
+                          const struct parameters *parameters, struct measurement_row *record,
+                          char reason[ROW_REASON_BYTES])
 {
-    struct row_reading reading = {.cells = {.table = table, .row = row}, .columns = columns};
+    const struct row_reading reading = {
+        .cells = {.columns = &columns->in_file, .row = row, .reason = reason},
+        .columns = columns,
+        .parameters = parameters};
 
-    reading.cells.reason = reason;
-    *record = (struct measurement_row){.line = table->lines[row]};
-    return row_read_time_and_sensor(&reading.cells, columns->t_s, columns->sensor_id,
-                                    &record->time_us, &record->sensor_id) &&
-           row_read_received(&reading.cells, columns->received_s, &record->received_us) &&
-           row_read_scan_number(&reading.cells, columns->scan, columns->epoch, &record->number) &&
-           (columns->is_bearings ? read_bearings_row(&reading, parameters, record)
-                                 : read_plots_row(&reading, parameters, record));
+    *record = (struct measurement_row){.line = columns->in_file.table->lines[row]};
+    return row_read_time_and_sensor(&reading.cells, &record->time_us, &record->sensor_id) &&
+           row_read_received(&reading.cells, &record->received_us) &&
+           row_read_scan_number(&reading.cells, &record->number) &&
+           (columns->is_bearings ? read_bearings_row(&reading, record)
+                                 : read_plots_row(&reading, record));
 }

@@ -11,9 +11,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "io/csv/csv_table.h"
 #include "io/csv/geodetic_columns.h"
-#include "io/csv/row_cells_read_and_check.h"
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/row_cells.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
@@ -39,39 +39,31 @@ struct measurement_row {
 };
 
 /*
- * Column indices, -1 where the file has no such column. A file of plots has either x_m and y_m, or
- * range_m and an azimuth, or latitude and longitude.
+ * The columns of a file. A file of plots has either x_m and y_m, or range_m and an azimuth, or
+ * latitude and longitude; columns that its kind does not use count as missing.
  */
-struct measurement_row_columns {
+struct measurement_columns {
+    struct columns in_file;
     bool is_bearings;
-    int t_s, received_s;
-    int sensor_id, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps, sigma_m, sigma_mps;
-    int range_m, azimuth_rad, azimuth_deg, elevation_rad, elevation_deg;
-    int range_rate_mps;
-    int sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
-    int sensor_x_m, sensor_y_m, sensor_z_m;
-    int bearing_rad, sigma_rad;
-    int sector_from_rad, sector_to_rad, snr_db, scan, epoch;
-    struct geodetic_columns *geodetic;
+    struct geodetic_columns *geodetic; /* NULL for bearings */
 };
 
 /* Whether the file holds bearings, and neither Cartesian nor polar plots. */
-bool measurement_row_table_has_bearings(const struct table *table);
+bool measurement_row_is_bearings(const struct table *table);
 
 /*
  * Finds the columns; exit 2 where a needed column is missing, or the file holds the other kind.
  * Plots need sensor_id where needs_sensor and the parameters describe a sensor, else all are of
  * sensor 0; bearings always need it. To be freed before the parameters.
  */
-struct measurement_row_columns measurement_row_columns_find(const struct table *table,
-                                                            const struct parameters *parameters,
-                                                            enum record_kind kind,
-                                                            bool needs_sensor);
-void measurement_row_columns_free(struct measurement_row_columns *columns);
+struct measurement_columns measurement_columns_find(const struct table *table,
+                                                    const struct parameters *parameters,
+                                                    enum record_kind kind, bool needs_sensor);
+void measurement_columns_free(struct measurement_columns *columns);
 
 /* Reads a row. Returns false and sets the reason where the row is bad. */
-bool measurement_row_read(const struct table *table, const struct measurement_row_columns *columns,
-                          size_t row, const struct parameters *parameters,
-                          struct measurement_row *record, char reason[ROW_REASON_BYTES]);
+bool measurement_row_read(const struct measurement_columns *columns, size_t row,
+                          const struct parameters *parameters, struct measurement_row *record,
+                          char reason[ROW_REASON_BYTES]);
 
 #endif

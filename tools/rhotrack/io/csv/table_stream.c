@@ -15,11 +15,12 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "base/number_and_time_parsing.h"
+#include "base/parse.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
-#include "io/asterix/asterix_tracks_to_table.h"
-#include "io/csv/table_dialect_and_column_names.h"
+#include "io/asterix/asterix_track_table.h"
+#include "io/csv/columns.h"
+#include "io/csv/dialect.h"
 
 #define FIRST_CAPACITY (1u << 16)
 #define FIRST_TEXT 1024u
@@ -60,8 +61,6 @@ _Noreturn static void fail_at_line(const struct table_stream *stream, uint32_t l
     fail(EXIT_USAGE, "%s:%u: %s", stream->table->path, (unsigned)line, what);
 }
 
-/* ---- The file ---- */
-
 /* Drops the bytes of rows that were parsed, unless the whole file is kept. */
 static void drop_parsed_bytes(struct table_stream *stream)
 {
@@ -85,17 +84,8 @@ static bool is_followed_pipe_silent(const struct table_stream *stream)
     return stream->follow && !stream->is_plain && poll(&ready, 1, 0) <= 0;
 }
 
-/* Makes room for `bytes` more bytes in the content. */
-static void make_content_room(struct table_stream *stream, size_t bytes)
-{
-    while (stream->capacity - stream->bytes < bytes) {
-        stream->capacity *= 2;
-        stream->content = must_realloc(stream->content, stream->capacity);
-    }
-}
-
 /* Reads more bytes, or finds that the file ends; false where neither is possible yet. */
-static bool read_more_or_find_end_unless_waiting(struct table_stream *stream)
+static bool read_more(struct table_stream *stream)
 {
     ssize_t got;
 
@@ -103,7 +93,10 @@ static bool read_more_or_find_end_unless_waiting(struct table_stream *stream)
         return false;
     }
     drop_parsed_bytes(stream);
-    make_content_room(stream, 1);
+    if (stream->capacity == stream->bytes) {
+        stream->capacity *= 2;
+        stream->content = must_realloc(stream->content, stream->capacity);
+    }
     do {
         got = read(stream->file, stream->content + stream->bytes, stream->capacity - stream->bytes);
     } while (got < 0 && errno == EINTR);
@@ -115,13 +108,11 @@ static bool read_more_or_find_end_unless_waiting(struct table_stream *stream)
     return got > 0 || stream->is_end;
 }
 
-/* ---- Lines ---- */
-
 /*
  * Length of the line at the current position with its line end; 0 where it is not there as a whole,
  * or there is none.
  */
-static size_t length_of_current_line_or_0_if_partial(const struct table_stream *stream)
+static size_t complete_line_length(const struct table_stream *stream)
 {
     const char *start = stream->content + stream->position, *c = start;
     const char *end = stream->content + stream->bytes;
@@ -138,13 +129,6 @@ static size_t length_of_current_line_or_0_if_partial(const struct table_stream *
     return (size_t)(c - start);
 }
 
-static void refuse_nul_bytes(const struct table_stream *stream, size_t length)
-{
-    if (memchr(stream->content + stream->position, '\0', length)) {
-        fail_at_line(stream, stream->line, "not a text file: it has a NUL byte");
-    }
-}
-
 /* Whether a line outside a row is blank or a comment. */
 static bool is_blank_or_comment(const char *line, size_t length)
 {
@@ -156,13 +140,10 @@ static bool is_blank_or_comment(const char *line, size_t length)
     return i == length || line[i] == '#';
 }
 
-/* ---- Rows ---- */
-
 /*
- * Whether a name points into the file's text; others are constants
- * (table_dialect_and_column_names.h).
+ * Whether a name points into the file's text; others are constants (columns.h).
  */
-static bool is_name_pointing_into_table_text(const struct table_stream *stream, const char *name)
+static bool is_name_in_text(const struct table_stream *stream, const char *name)
 {
     const char *text = stream->table->text;
 
@@ -183,7 +164,7 @@ static void grow_cell_text(struct table_stream *stream, size_t bytes)
     text = must_alloc(stream->text_capacity);
     memcpy(text, table->text, stream->text_used);
     for (size_t i = 0; table->names && i < table->num_columns; i++) {
-        if (is_name_pointing_into_table_text(stream, table->names[i])) {
+        if (is_name_in_text(stream, table->names[i])) {
             table->names[i] = text + (table->names[i] - table->text);
         }
     }
@@ -209,7 +190,7 @@ static void append_parsed_cell(void *cell, size_t bytes, void *user)
     memcpy(text, cell, bytes);
     text[bytes] = '\0';
     if (stream->delimiter != ',') {
-        table_dialect_point_for_comma(text);
+        dialect_point_for_comma(text);
     }
     stream->text_used += bytes + 1;
     stream->row[stream->row_cells++] = text;
@@ -222,7 +203,8 @@ static void mark_row_complete(int end, void *user)
     ((struct table_stream *)user)->row_is_complete = true;
 }
 
-static void restart_csv_parser_with_delimiter(struct table_stream *stream)
+/* Starts the parser again, with the file's separator. */
+static void restart_csv_parser(struct table_stream *stream)
 {
     if (csv_init(&stream->parser, CSV_STRICT | CSV_STRICT_FINI)) {
         fail(EXIT_RUNTIME, "out of memory");
@@ -262,7 +244,7 @@ static void fail_or_skip_row(struct table_stream *stream, const char *what)
     stream->position = stream->row_next;
     stream->line = stream->row_line + 1;
     csv_free(&stream->parser);
-    restart_csv_parser_with_delimiter(stream);
+    restart_csv_parser(stream);
 }
 
 static void process_header_row(struct table_stream *stream)
@@ -286,7 +268,7 @@ static void process_header_row(struct table_stream *stream)
             }
         }
     }
-    table_dialect_name_columns(table);
+    columns_rename(table);
 }
 
 static void add_row_to_table(struct table_stream *stream)
@@ -325,21 +307,13 @@ static void process_complete_row(struct table_stream *stream)
     fail_or_skip_row(stream, what);
 }
 
-/* Sets the separator of cells from the header line. */
-static void set_delimiter_from_header(struct table_stream *stream, const char *line, size_t length)
-{
-    stream->delimiter = table_dialect_find_delimiter(line, length);
-    csv_free(&stream->parser);
-    restart_csv_parser_with_delimiter(stream);
-}
-
 static const char *join_blanks(struct table_stream *stream, const char *line, size_t *length)
 {
     if (*length > stream->joined_capacity) {
         stream->joined_capacity = 2 * *length;
         stream->joined = must_realloc(stream->joined, stream->joined_capacity);
     }
-    *length = table_dialect_join_blanks(line, *length, stream->joined);
+    *length = dialect_join_blanks(line, *length, stream->joined);
     return stream->joined;
 }
 
@@ -351,7 +325,9 @@ static void parse_line(struct table_stream *stream, size_t length)
     const char *line = stream->content + stream->position;
 
     if (!stream->delimiter) {
-        set_delimiter_from_header(stream, line, length);
+        stream->delimiter = dialect_find_delimiter(line, length);
+        csv_free(&stream->parser);
+        restart_csv_parser(stream);
     }
     if (!stream->row_is_open) {
         begin_row(stream, length);
@@ -377,8 +353,6 @@ static void parse_line(struct table_stream *stream, size_t length)
         process_complete_row(stream);
     }
 }
-
-/* ---- Lines to rows ---- */
 
 /*
  * Name of the binary format that a file begins with, as an error message; NULL: it may be text.
@@ -426,7 +400,9 @@ static void refuse_bad_line(const struct table_stream *stream, size_t length)
     if (length > 0 && !stream->table->names && !stream->row_is_open) {
         refuse_foreign_format(stream);
     }
-    refuse_nul_bytes(stream, length);
+    if (memchr(stream->content + stream->position, '\0', length)) {
+        fail_at_line(stream, stream->line, "not a text file: it has a NUL byte");
+    }
     if (!stream->is_whole && length > TABLE_STREAM_ROW_BYTES) {
         fail_at_line(stream, stream->line, "a line of more than 1 MiB");
     }
@@ -459,13 +435,12 @@ static void skip_byte_order_mark(struct table_stream *stream, size_t *length)
  */
 static enum table_stream_found find_line(struct table_stream *stream, size_t *length)
 {
-    while ((*length = length_of_current_line_or_0_if_partial(stream)) == 0) {
+    while ((*length = complete_line_length(stream)) == 0) {
         if (stream->is_end) {
             return TABLE_STREAM_END;
         }
         refuse_too_long_row(stream);
-        if (length_of_current_line_or_0_if_partial(stream) == 0 &&
-            !read_more_or_find_end_unless_waiting(stream)) {
+        if (complete_line_length(stream) == 0 && !read_more(stream)) {
             return TABLE_STREAM_WAITS;
         }
     }
@@ -501,24 +476,18 @@ static void process_line(struct table_stream *stream, size_t length)
     }
 }
 
-/* Reads the next row of an ASTERIX recording, whose header is there from the start. */
-static enum table_stream_found next_asterix_row(struct table_stream *stream, bool to_header)
-{
-    if (to_header) {
-        return TABLE_STREAM_ROW;
-    }
-    if (!stream->is_whole) {
-        stream->table->num_rows = 0;
-    }
-    stream->is_end = !asterix_plot_rows_next(stream->asterix, stream->table);
-    return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
-}
-
 /* Reads on to the next row, or with to_header to the header. */
 static enum table_stream_found parse_to_row(struct table_stream *stream, bool to_header)
 {
     if (stream->asterix) {
-        return next_asterix_row(stream, to_header);
+        if (to_header) {
+            return TABLE_STREAM_ROW; /* the header of a recording is there from the start */
+        }
+        if (!stream->is_whole) {
+            stream->table->num_rows = 0;
+        }
+        stream->is_end = !asterix_plot_rows_next(stream->asterix, stream->table);
+        return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
     }
     stream->has_row = false;
     while (!stream->has_row && !(to_header && stream->table->names)) {
@@ -536,8 +505,6 @@ static enum table_stream_found parse_to_row(struct table_stream *stream, bool to
     }
     return TABLE_STREAM_ROW;
 }
-
-/* ---- Ends ---- */
 
 static void need_header(const struct table_stream *stream)
 {
@@ -561,19 +528,6 @@ static void fail_if_all_rows_bad(const struct table_stream *stream)
     }
 }
 
-/* ---- Whole files ---- */
-
-static void open_asterix_recording(struct table_stream *stream, const char *path,
-                                   const struct parameters *parameters)
-{
-    if (stream->follow) {
-        fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an ASTERIX recording", path);
-    }
-    stream->asterix = asterix_plot_rows_open(path, parameters, stream->keep_going);
-    table_free(stream->table);
-    stream->table = asterix_plot_rows_empty_table(path, asterix_plot_rows_columns(stream->asterix));
-}
-
 static struct table_stream *open_stream(const char *path, const struct parameters *parameters,
                                         bool keep_going, bool follow)
 {
@@ -589,10 +543,17 @@ static struct table_stream *open_stream(const char *path, const struct parameter
     stream->follow = follow;
     stream->capacity = FIRST_CAPACITY;
     stream->content = must_alloc(stream->capacity);
-    restart_csv_parser_with_delimiter(stream);
+    restart_csv_parser(stream);
     stream->file = -1;
     if (!is_standard && asterix_file_is_asterix(path)) {
-        open_asterix_recording(stream, path, parameters);
+        if (stream->follow) {
+            fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an ASTERIX recording",
+                 path);
+        }
+        stream->asterix = asterix_plot_rows_open(path, parameters, stream->keep_going);
+        table_free(stream->table);
+        stream->table =
+            asterix_plot_rows_empty_table(path, asterix_plot_rows_columns(stream->asterix));
         return stream;
     }
     stream->file = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
@@ -649,12 +610,10 @@ struct table *table_read_csv_or_asterix(const char *path, const struct parameter
 
     stream->is_whole = true;
     while (!stream->asterix && !stream->is_end) {
-        read_more_or_find_end_unless_waiting(stream);
+        read_more(stream);
     }
     return parse_whole_and_free_stream(stream);
 }
-
-/* ---- Row by row ---- */
 
 struct table_stream *table_stream_open(const char *path, const struct parameters *parameters,
                                        bool keep_going, bool follow)
@@ -679,10 +638,10 @@ enum table_stream_found table_stream_next(struct table_stream *stream)
     return found;
 }
 
-void table_stream_suppress_asterix_end_summary(struct table_stream *stream)
+void table_stream_set_quiet(struct table_stream *stream)
 {
     if (stream->asterix) {
-        asterix_plot_rows_suppress_end_summary(stream->asterix);
+        asterix_plot_rows_set_quiet(stream->asterix);
     }
 }
 
@@ -691,7 +650,7 @@ const struct table *table_stream_table(const struct table_stream *stream)
     return stream->table;
 }
 
-const char *table_stream_why_file_cannot_be_followed(const struct table_stream *stream)
+const char *table_stream_why_not_followed(const struct table_stream *stream)
 {
     struct stat now, own;
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * table_stream: reads a CSV file row by row, in memory that does not grow with the file. Refusals
- * and messages are those of table_columns_and_cells.h; a row of more than TABLE_STREAM_ROW_BYTES is
+ * and messages are those of csv_table.h; a row of more than TABLE_STREAM_ROW_BYTES is
  * refused too.
  */
 #ifndef RHOTRACK_TOOL_TABLE_STREAM_H
 #define RHOTRACK_TOOL_TABLE_STREAM_H
 
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 
 #define TABLE_STREAM_ROW_BYTES                                                                     \
     (1u << 20) /* longest row; it limits how much an unclosed quotation mark takes */
@@ -32,13 +32,13 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
 enum table_stream_found table_stream_next(struct table_stream *stream);
 
 /* Suppresses the report of left-out content at the end, for a stream that only previews a file. */
-void table_stream_suppress_asterix_end_summary(struct table_stream *stream);
+void table_stream_set_quiet(struct table_stream *stream);
 
 /* The stream's table: column names, once there is a header, and the newest row. */
 const struct table *table_stream_table(const struct table_stream *stream);
 
 /* Why a followed file cannot get more rows ("has become shorter"), or NULL. */
-const char *table_stream_why_file_cannot_be_followed(const struct table_stream *stream);
+const char *table_stream_why_not_followed(const struct table_stream *stream);
 
 /* Whether the bytes read end in the middle of a row. */
 bool table_stream_is_mid_row(const struct table_stream *stream);

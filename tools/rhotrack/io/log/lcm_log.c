@@ -21,8 +21,6 @@ enum {
 
 static const uint8_t sync_word[SYNC_BYTES] = {0xED, 0xA1, 0xDA, 0x01};
 
-/* ---- Bytes ---- */
-
 static int64_t load_int64(const uint8_t *data)
 {
     uint64_t value = load_big_endian(data, 8);
@@ -105,18 +103,6 @@ static size_t find_header_inside_event(const uint8_t *data, size_t bytes, size_t
     return bytes;
 }
 
-static void fill_event(const uint8_t *data, size_t bytes, struct lcm_log_event *event)
-{
-    size_t channel = (size_t)load_big_endian(data + 20, 4);
-
-    event->number = load_int64(data + 4);
-    event->utime = load_int64(data + 12);
-    memcpy(event->channel, data + LCM_LOG_HEADER_BYTES, channel);
-    event->channel[channel] = '\0';
-    event->data = data + LCM_LOG_HEADER_BYTES + channel;
-    event->size = bytes - LCM_LOG_HEADER_BYTES - channel;
-}
-
 static enum lcm_log_found found_bytes_to_skip(size_t bytes, size_t *count)
 {
     *count = bytes;
@@ -152,12 +138,17 @@ enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
             return found_bytes_to_skip(inside, count);
         }
     }
-    fill_event(data, bytes, event);
+    size_t channel = (size_t)load_big_endian(data + 20, 4);
+
+    event->number = load_int64(data + 4);
+    event->utime = load_int64(data + 12);
+    memcpy(event->channel, data + LCM_LOG_HEADER_BYTES, channel);
+    event->channel[channel] = '\0';
+    event->data = data + LCM_LOG_HEADER_BYTES + channel;
+    event->size = bytes - LCM_LOG_HEADER_BYTES - channel;
     *count = bytes;
     return LCM_LOG_EVENT;
 }
-
-/* ---- Files ---- */
 
 struct skipped_place {
     uint64_t offset, bytes;
@@ -353,8 +344,6 @@ void lcm_log_close(struct lcm_log_reader *reader)
     free(reader->buffer);
     free(reader);
 }
-
-/* ---- Writing ---- */
 
 void lcm_log_put_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
                         size_t channel_bytes, size_t data_bytes)

@@ -32,8 +32,6 @@ struct lcm_log_event {
     uint64_t offset; /* byte offset of the event in its file */
 };
 
-/* ---- Bytes ---- */
-
 enum lcm_log_found {
     /* the bytes begin with an event of *count bytes; all of *event but offset is set */
     LCM_LOG_EVENT,
@@ -48,8 +46,6 @@ enum lcm_log_found {
  */
 enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
                                  struct lcm_log_event *event, size_t *count);
-
-/* ---- Files ---- */
 
 struct lcm_log_reader;
 
@@ -83,8 +79,6 @@ uint64_t lcm_log_position(const struct lcm_log_reader *reader);
 /* Reports skipped bytes on standard error: the first few places each, then a sum. */
 void lcm_log_report_skipped(const struct lcm_log_reader *reader);
 void lcm_log_close(struct lcm_log_reader *reader);
-
-/* ---- Writing ---- */
 
 /*
  * Fills an event's header; channel_bytes and data_bytes are the lengths in bytes of the parts that

@@ -16,8 +16,6 @@
 #define HOLD_MAX_MS 10000.0
 #define LATE_MAX_S 60.0
 
-/* ---- Kinds ---- */
-
 unsigned log_scans_kinds(const char *path)
 {
     struct lcm_log_reader *reader;
@@ -40,8 +38,6 @@ unsigned log_scans_kinds(const char *path)
     lcm_log_close(reader);
     return kinds;
 }
-
-/* ---- Scans ---- */
 
 struct log_scans {
     const char *path;
@@ -73,28 +69,23 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
     return llround(parameters->value[PARAMETER_HOLD_MS] * 1e3) + largest_us - least_us;
 }
 
-/*
- * Sets the assembler's waits. Where the caller holds the scans, with more room than the assembler,
- * which would drop out-of-sequence scans, the assembler waits only for the sensors' clocks.
- * late_max_s grows by the whole wait, so that scans held for it are not dropped as too late.
- */
-static void set_assembler_hold_and_late_max(struct parameters *parameters, bool caller_holds_scans)
-{
-    double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
-    double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
-
-    parameters->value[PARAMETER_HOLD_MS] =
-        fmin(caller_holds_scans ? clocks_ms : hold_ms, HOLD_MAX_MS);
-    parameters->value[PARAMETER_LATE_MAX_S] =
-        fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
-}
-
 /* Opens the log, and sets the assembler to its state before the first event. */
 static void open_log_and_assembler(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    set_assembler_hold_and_late_max(&parameters, scans->is_held);
+    /*
+     * Sets the assembler's waits. Where the caller holds the scans, with more room than the
+     * assembler, which would drop out-of-sequence scans, the assembler waits only for the sensors'
+     * clocks. late_max_s grows by the whole wait, so that scans held for it are not dropped as too
+     * late.
+     */
+    double hold_ms = (double)log_scans_hold_us(&parameters) * 1e-3;
+    double clocks_ms = hold_ms - parameters.value[PARAMETER_HOLD_MS];
+
+    parameters.value[PARAMETER_HOLD_MS] = fmin(scans->is_held ? clocks_ms : hold_ms, HOLD_MAX_MS);
+    parameters.value[PARAMETER_LATE_MAX_S] =
+        fmin(parameters.value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
     parameters_to_assembler(&parameters, scans->assembler);
     scans->assembler->config.is_record = 1;
     scans->order = (struct out_of_sequence_counts){0};
@@ -112,19 +103,9 @@ static void offer_event_to_assembler(struct log_scans *scans)
 {
     const struct lcm_log_event *event = &scans->event;
 
-    scans->has_event = out_of_sequence_counts_take_message(&scans->order, scans->assembler,
-                                                           event->channel, event->data, event->size,
-                                                           event->utime) == RHO_ERROR_CAPACITY;
-}
-
-static void read_and_offer_event(struct log_scans *scans)
-{
-    scans->is_over = !lcm_log_next(scans->reader, &scans->event);
-    if (!scans->is_over) {
-        scans->clock_us =
-            scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
-        offer_event_to_assembler(scans);
-    }
+    scans->has_event =
+        out_of_sequence_counts_take(&scans->order, scans->assembler, event->channel, event->data,
+                                    event->size, event->utime) == RHO_ERROR_CAPACITY;
 }
 
 static int64_t assembler_clock_us(const struct log_scans *scans)
@@ -148,7 +129,12 @@ static bool assemble_next_scan(struct log_scans *scans, struct rho_scan_assemble
             return false;
         }
         if (!scans->has_event) {
-            read_and_offer_event(scans);
+            scans->is_over = !lcm_log_next(scans->reader, &scans->event);
+            if (!scans->is_over) {
+                scans->clock_us =
+                    scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
+                offer_event_to_assembler(scans);
+            }
         }
     }
 }
@@ -162,9 +148,8 @@ static int64_t item_scan_time_us(const struct rho_scan_assembler_item *item)
  * The sensors' clock was set back: two recordings in one file cannot be stepped as one. Exit 2, or
  * the scans before are left out.
  */
-static void refuse_clock_restart_or_skip_scans_before(struct log_scans *scans,
-                                                      const struct rho_scan_assembler_item *item,
-                                                      bool keep_going)
+static void refuse_clock_restart(struct log_scans *scans,
+                                 const struct rho_scan_assembler_item *item, bool keep_going)
 {
     double time_s = 1e-6 * (double)item_scan_time_us(item);
     uint64_t before = scans->num_given - 1;
@@ -185,8 +170,7 @@ static void refuse_clock_restart_or_skip_scans_before(struct log_scans *scans,
 /*
  * Goes through the whole log to count its scans, and to find the last time the clock was set back.
  */
-static void count_scans_and_find_last_clock_setback(struct log_scans *scans, uint64_t file_bytes,
-                                                    bool keep_going)
+static void preview_scans(struct log_scans *scans, uint64_t file_bytes, bool keep_going)
 {
     struct rho_scan_assembler_item item;
     int64_t last_us = INT64_MIN;
@@ -194,7 +178,7 @@ static void count_scans_and_find_last_clock_setback(struct log_scans *scans, uin
 
     while (assemble_next_scan(scans, &item)) {
         if (item.is_restart && item_scan_time_us(&item) < last_us) {
-            refuse_clock_restart_or_skip_scans_before(scans, &item, keep_going);
+            refuse_clock_restart(scans, &item, keep_going);
         }
         last_us = item_scan_time_us(&item);
         progress_show_by_bytes(&progress, scans->num_given, lcm_log_position(scans->reader),
@@ -202,8 +186,6 @@ static void count_scans_and_find_last_clock_setback(struct log_scans *scans, uin
     }
     progress_end(&progress);
 }
-
-/* ---- What was wrong ---- */
 
 static void report_assembler_faults(const char *path,
                                     const struct rho_scan_assembler_counters *counters,
@@ -255,10 +237,10 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->is_held = caller_holds_scans;
     scans->assembler = must_alloc(sizeof *scans->assembler);
     open_log_and_assembler(scans);
-    count_scans_and_find_last_clock_setback(scans, regular_file_size_or_zero(path), keep_going);
+    preview_scans(scans, regular_file_size_or_zero(path), keep_going);
     if (reports_faults) {
         const struct scan_losses losses =
-            out_of_sequence_counts_to_scan_losses(&scans->order, &scans->assembler->counters);
+            out_of_sequence_counts_losses(&scans->order, &scans->assembler->counters);
 
         lcm_log_report_skipped(scans->reader);
         report_assembler_faults(path, &scans->assembler->counters, &losses);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/identity_to_index_map.h"
+#include "base/identity_map.h"
 #include "io/csv/local_frame.h"
 
 struct point {
@@ -56,8 +56,6 @@ struct geojson *geojson_open(FILE *file, const struct parameters *parameters)
     return geojson;
 }
 
-/* ---- Places on the earth ---- */
-
 /* Rounds to 1/steps, so that no more digits are written. */
 static double round_to_steps(double value, double steps)
 {
@@ -88,8 +86,6 @@ static cJSON *lon_lat_alt_json_array(const double on_earth[3], bool has_height)
     }
     return position;
 }
-
-/* ---- Properties ---- */
 
 static cJSON *time_in_seconds_json(double time_us)
 {
@@ -144,8 +140,6 @@ static cJSON *properties_json(const struct geojson *geojson, const struct track 
     cJSON_AddNumberToObject(properties, "misses", track->last.misses);
     return properties;
 }
-
-/* ---- Features ---- */
 
 static void write_feature(struct geojson *geojson, cJSON *geometry, cJSON *properties)
 {
@@ -268,8 +262,6 @@ static void write_and_free_track(struct geojson *geojson, struct track *track)
     free(track);
 }
 
-/* ---- Tracks ---- */
-
 static struct track *find_or_add_track(struct geojson *geojson, int32_t track_id)
 {
     size_t known = geojson->ids.count;
@@ -306,7 +298,7 @@ void geojson_add_row(struct geojson *geojson, const struct geojson_row *row)
     track->seen_at = geojson->times;
 }
 
-void geojson_end_time_and_write_ended_tracks(struct geojson *geojson)
+void geojson_end_time(struct geojson *geojson)
 {
     for (size_t i = geojson->first; i < geojson->ids.count; i++) {
         struct track *track = geojson->tracks[i];
@@ -323,7 +315,7 @@ void geojson_end_time_and_write_ended_tracks(struct geojson *geojson)
     geojson->times++;
 }
 
-void geojson_write_open_tracks_and_free(struct geojson *geojson)
+void geojson_end_and_free(struct geojson *geojson)
 {
     for (size_t i = geojson->first; i < geojson->ids.count; i++) {
         struct track *track = geojson->tracks[i];

@@ -44,10 +44,10 @@ struct geojson *geojson_open(FILE *file, const struct parameters *parameters);
 void geojson_add_row(struct geojson *geojson, const struct geojson_row *row);
 
 /* Ends a time: tracks without a row since the call before have ended, and are written. */
-void geojson_end_time_and_write_ended_tracks(struct geojson *geojson);
+void geojson_end_time(struct geojson *geojson);
 
 /* Writes the remaining tracks, ends the collection, and frees the writer. */
-void geojson_write_open_tracks_and_free(struct geojson *geojson);
+void geojson_end_and_free(struct geojson *geojson);
 
 /* Whether an output of this name is GeoJSON: it ends with .geojson. */
 bool geojson_path_is_geojson(const char *path);

@@ -31,10 +31,9 @@ bool tracks_output_path_is_log(const char *path)
     return path && path_ends_with(path, ".lcm");
 }
 
-static struct tracks_output *make_tracks_output_of_opened_file(const char *path,
-                                                               struct output output,
-                                                               const struct parameters *parameters,
-                                                               bool with_covariance)
+static struct tracks_output *make_tracks_output(const char *path, struct output output,
+                                                const struct parameters *parameters,
+                                                bool with_covariance)
 {
     struct tracks_output *tracks = must_calloc(1, sizeof *tracks);
 
@@ -43,7 +42,7 @@ static struct tracks_output *make_tracks_output_of_opened_file(const char *path,
     tracks->columns.covariance = with_covariance;
     tracks->output = output;
     tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
-    if (asterix_track_writer_path_is_asterix(path)) {
+    if (asterix_track_writer_is_path(path)) {
         tracks->asterix = asterix_track_writer_open(output.file, parameters);
     }
     return tracks;
@@ -57,9 +56,8 @@ struct tracks_output *tracks_output_open(const char *path, const struct paramete
     if (geojson_path_is_geojson(path) && with_covariance) {
         fail(EXIT_USAGE, "%s: GeoJSON cannot hold covariances (--covariance)", path);
     }
-    asterix_track_writer_refuse_covariance(path, with_covariance);
-    tracks =
-        make_tracks_output_of_opened_file(path, output_open(path), parameters, with_covariance);
+    asterix_track_writer_check(path, with_covariance);
+    tracks = make_tracks_output(path, output_open(path), parameters, with_covariance);
     tracks->map =
         geojson_path_is_geojson(path) ? geojson_open(tracks->output.file, parameters) : NULL;
     return tracks;
@@ -75,9 +73,8 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
              "file and `convert` it",
              path);
     }
-    asterix_track_writer_refuse_covariance(path, with_covariance);
-    return make_tracks_output_of_opened_file(path, output_open_in_place(path), parameters,
-                                             with_covariance);
+    asterix_track_writer_check(path, with_covariance);
+    return make_tracks_output(path, output_open_in_place(path), parameters, with_covariance);
 }
 
 void tracks_output_add_body_columns(struct tracks_output *tracks, const struct rho_tracker *tracker)
@@ -103,8 +100,9 @@ void tracks_output_flush(struct tracks_output *tracks)
     output_flush(&tracks->output);
 }
 
-static void write_track_list_to_log_or_asterix(struct tracks_output *tracks, int64_t time_us,
-                                               const uint8_t *data, size_t size)
+/* Writes a track list to the log or as ASTERIX. */
+static void write_list_message(struct tracks_output *tracks, int64_t time_us, const uint8_t *data,
+                               size_t size)
 {
     struct rho_message_track_list message;
 
@@ -113,7 +111,7 @@ static void write_track_list_to_log_or_asterix(struct tracks_output *tracks, int
                            data, size);
     } else {
         must_succeed(rho_message_track_list_decode(data, size, &message), "track_list");
-        asterix_track_writer_add_list_part(tracks->asterix, &message);
+        asterix_track_writer_add(tracks->asterix, &message);
     }
 }
 
@@ -127,7 +125,7 @@ static void write_track_list(struct tracks_output *tracks, const struct rho_repo
         must_succeed(
             rho_publish_tracks(report, tracks->step, EPOCH, part, buffer, sizeof buffer, &size),
             "publish");
-        write_track_list_to_log_or_asterix(tracks, report->time_us, buffer, size);
+        write_list_message(tracks, report->time_us, buffer, size);
     }
 }
 
@@ -161,19 +159,14 @@ static void add_track_to_geojson(struct geojson *map, int64_t time_us,
     geojson_add_row(map, &row);
 }
 
-/* Adds all tracks of a report; tracks that are not in it have ended. */
-static void add_report_to_geojson(struct geojson *map, const struct rho_report *report)
-{
-    for (int i = 0; i < report->num_tracks; i++) {
-        add_track_to_geojson(map, report->time_us, &report->tracks[i]);
-    }
-    geojson_end_time_and_write_ended_tracks(map);
-}
-
 void tracks_output_write_report(struct tracks_output *tracks, const struct rho_report *report)
 {
     if (tracks->map) {
-        add_report_to_geojson(tracks->map, report);
+        /* tracks that are not in the report have ended */
+        for (int i = 0; i < report->num_tracks; i++) {
+            add_track_to_geojson(tracks->map, report->time_us, &report->tracks[i]);
+        }
+        geojson_end_time(tracks->map);
     } else if (tracks->is_log || tracks->asterix) {
         write_track_list(tracks, report);
         if (tracks->is_log) {
@@ -195,8 +188,8 @@ int32_t tracks_output_epoch(void)
     return EPOCH;
 }
 
-void tracks_output_write_message_to_log(struct tracks_output *tracks, int64_t time_us,
-                                        const char *channel, const uint8_t *data, size_t size)
+void tracks_output_log_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
+                               const uint8_t *data, size_t size)
 {
     lcm_log_must_write(&tracks->log, tracks->path, time_us, channel, data, size);
 }
@@ -227,7 +220,7 @@ void tracks_output_close(struct tracks_output *tracks)
     if (tracks) {
         write_header_once(tracks);
         if (tracks->map) {
-            geojson_write_open_tracks_and_free(tracks->map);
+            geojson_end_and_free(tracks->map);
         }
         output_close(&tracks->output);
         asterix_track_writer_free(tracks->asterix);

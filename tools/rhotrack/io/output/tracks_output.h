@@ -46,8 +46,8 @@ void tracks_output_write_report(struct tracks_output *tracks, const struct rho_r
 /* For logs: number and epoch of the last step, and writing a further message at a step's time. */
 int32_t tracks_output_step_number(const struct tracks_output *tracks);
 int32_t tracks_output_epoch(void);
-void tracks_output_write_message_to_log(struct tracks_output *tracks, int64_t time_us,
-                                        const char *channel, const uint8_t *data, size_t size);
+void tracks_output_log_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
+                               const uint8_t *data, size_t size);
 
 /* Writes a step with a single track. */
 void tracks_output_write_track(struct tracks_output *tracks, int64_t time_us,

@@ -8,110 +8,79 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/csv/row_cells_read_and_check.h"
-#include "io/csv/table_columns_and_cells.h"
-#include "io/rows/rows_lat_lon_to_local_frame.h"
-#include "io/scans/hash_table_of_scans_by_number.h"
+#include "io/csv/row_cells.h"
+#include "io/rows/rows_geodetic.h"
+#include "io/scans/scan_numbers.h"
 
-/* State of reading a table; columns are indices into it, -1 where it has no such column. */
+/* State of reading a table. */
 struct reading {
     struct rows_file *file;
-    const struct table *table;
+    struct columns columns; /* those that the file's kind does not use count as missing */
     const struct parameters *parameters;
-    int t_s, received_s, sensor_id, scan, epoch;
-    int columns[ROWS_MAX_COLUMNS];
-    bool is_degrees[ROWS_MAX_COLUMNS];
-    int place; /* first column of a radar's position in the kind's columns, else -1 */
-    struct rows_geodetic_columns geodetic;
+    struct rows_geodetic geodetic;
     struct scan_numbers numbers; /* numbered scans, by the indices of their first rows */
     bool has_last;
     int64_t last_us; /* latest time of a row, or of its reception where that is given */
 };
 
-/* ---- Columns ---- */
-
-static const struct rows_kind *kind_of_table(const struct table *table)
+static const struct rows_kind *kind_of_columns(const struct columns *columns)
 {
     static const struct {
-        const char *name;
+        enum column_id column;
         int kind;
-    } marks[] = {{"track_id", ROWS_TRACKS}, {"target_id", ROWS_TRUTH},
-                 {"range_m", ROWS_POLAR},   {"x_m", ROWS_PLOTS},
-                 {"lat_deg", ROWS_PLOTS},   {"bearing_rad", ROWS_BEARINGS}};
-
-    bool has_sensor = table_find_column(table, "sensor_id") >= 0;
+    } marks[] = {{COL_TRACK_ID, ROWS_TRACKS}, {COL_TARGET_ID, ROWS_TRUTH},
+                 {COL_RANGE_M, ROWS_POLAR},   {COL_X_M, ROWS_PLOTS},
+                 {COL_LAT_DEG, ROWS_PLOTS},   {COL_BEARING_RAD, ROWS_BEARINGS}};
 
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
         /* simulated plots may name their target, and have a sensor */
-        if (table_find_column(table, marks[i].name) >= 0 &&
-            !(marks[i].kind == ROWS_TRUTH && has_sensor)) {
+        if (columns->at[marks[i].column] >= 0 &&
+            !(marks[i].kind == ROWS_TRUTH && columns->at[COL_SENSOR_ID] >= 0)) {
             return rows_kinds[marks[i].kind];
         }
     }
-    table_fail_at_row(table, TABLE_HEADER,
+    table_fail_at_row(columns->table, TABLE_HEADER,
                       "neither plots, polar plots, bearings, truth nor tracks: no column 'x_m', "
                       "'lat_deg', 'range_m', 'bearing_rad', 'target_id' or 'track_id'");
 }
 
-static int find_column(const struct reading *reading, const struct rows_column *column,
-                       bool *is_degrees)
+static void check_columns(struct reading *reading)
 {
-    const struct table *table = reading->table;
-    int plain = table_find_column(table, column->name);
-    int degrees = column->degrees ? table_find_column(table, column->degrees) : -1;
-
-    if (plain >= 0 && degrees >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "columns '%s' and '%s' exclude each other",
-                          column->name, column->degrees);
-    }
-    *is_degrees = degrees >= 0;
-    if (degrees < 0 && (column->flags & COLUMN_NEEDED) &&
-        !rows_geodetic_columns_replaces_column(&reading->geodetic, column)) {
-        return table_need_column(table, column->name);
-    }
-    return degrees >= 0 ? degrees : plain;
-}
-
-static void find_columns(struct reading *reading)
-{
-    const struct table *table = reading->table;
+    struct columns *columns = &reading->columns;
     const struct rows_kind *kind = reading->file->rows.kind;
 
-    reading->t_s = table_need_column(table, "t_s");
-    reading->sensor_id = -1;
-    if (kind->has_sensor) {
-        bool is_needed = kind == &rows_kind_bearings || reading->parameters->num_sensors > 0;
-
-        reading->sensor_id =
-            (is_needed ? table_need_column : table_find_column)(table, "sensor_id");
+    (void)columns_need(columns, COL_T_S);
+    if (kind == &rows_kind_bearings || (kind->has_sensor && reading->parameters->num_sensors > 0)) {
+        (void)columns_need(columns, COL_SENSOR_ID);
     }
-    reading->received_s = kind->has_received ? table_find_column(table, "received_s") : -1;
-    reading->file->rows.has_received = reading->received_s >= 0;
-    reading->scan = table_find_column(table, "scan");
-    reading->epoch = kind->has_epoch ? table_find_column(table, "epoch") : -1;
-    reading->file->has_scan = reading->scan >= 0;
-    reading->file->has_epoch = reading->epoch >= 0;
-    reading->place = -1;
-    reading->geodetic = rows_geodetic_columns_open(table, kind, reading->parameters);
+    columns->at[COL_RECEIVED_S] = kind->has_received ? columns->at[COL_RECEIVED_S] : -1;
+    columns->at[COL_EPOCH] = kind->has_epoch ? columns->at[COL_EPOCH] : -1;
+    reading->file->rows.has_received = columns->at[COL_RECEIVED_S] >= 0;
+    reading->file->has_scan = columns->at[COL_SCAN] >= 0;
+    reading->file->has_epoch = columns->at[COL_EPOCH] >= 0;
+    reading->geodetic = rows_geodetic_open(columns->table, kind, reading->parameters);
     for (int i = 0; i < kind->num_columns; i++) {
-        reading->columns[i] = find_column(reading, &kind->columns[i], &reading->is_degrees[i]);
-        if (kind == &rows_kind_polar && strcmp(kind->columns[i].name, "sensor_x_m") == 0) {
-            reading->place = i;
+        const struct rows_column *column = &kind->columns[i];
+
+        columns_refuse_two_units(columns, column->id);
+        if ((column->flags & COLUMN_NEEDED) &&
+            !rows_geodetic_replaces(&reading->geodetic, column)) {
+            (void)columns_need(columns, column->id);
         }
     }
-    if (kind == &rows_kind_polar && table_find_column(table, "x_m") >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "columns 'range_m' and 'x_m' exclude each other");
+    if (kind == &rows_kind_polar) {
+        columns_refuse_both(columns, COL_RANGE_M, COL_X_M);
     }
-    row_need_both_columns_or_neither(table, "sensor_x_m", "sensor_y_m");
-    row_need_both_columns_or_neither(table, "sector_from_rad", "sector_to_rad");
+    columns_need_both(columns, COL_SENSOR_X_M, COL_SENSOR_Y_M);
+    columns_need_both(columns, COL_SECTOR_FROM_RAD, COL_SECTOR_TO_RAD);
 }
 
-/* ---- Cells ---- */
-
-static bool read_status(const struct row_check *check, int column, double *value)
+static bool read_status(const struct row_check *check, enum column_id column, double *value)
 {
+    const int at = check->columns->at[column];
+
     for (int i = 1; i <= ROWS_STATUS_MAX; i++) {
-        if (table_is_word(check->table, check->row, column, rows_track_status_name(i))) {
+        if (table_is_word(check->columns->table, check->row, at, rows_track_status_name(i))) {
             *value = i;
             return true;
         }
@@ -119,36 +88,30 @@ static bool read_status(const struct row_check *check, int column, double *value
     return row_refuse_cell(check, column, "is none of tentative, confirmed, coasting, deleted");
 }
 
-static bool read_int32(const struct row_check *check, int column, int32_t *value)
+static bool read_int16(const struct row_check *check, enum column_id column, int32_t *value)
 {
-    const char *why = table_read_int32(check->table, check->row, column, value);
-
-    return !why || row_refuse_cell(check, column, why);
-}
-
-static bool read_int16(const struct row_check *check, int column, int32_t *value)
-{
-    if (!read_int32(check, column, value)) {
+    if (!row_read_int32(check, column, value)) {
         return false;
     }
     return (*value >= INT16_MIN && *value <= INT16_MAX) ||
            row_refuse_cell(check, column, "is outside -32768 .. 32767, the range of messages");
 }
 
-static bool read_float(const struct row_check *check, int column, double *value)
+static bool read_float(const struct row_check *check, enum column_id column, double *value)
 {
+    const struct columns *columns = check->columns;
     float number;
-    const char *why = table_read_float(check->table, check->row, column, &number);
+    const char *why = table_read_float(columns->table, check->row, columns->at[column], &number);
 
     *value = (double)number;
     return !why || row_refuse_cell(check, column, why);
 }
 
-static bool read_degrees_into_column_unit(const struct row_check *check, int column,
-                                          const struct rows_column *described, double *value)
+static bool read_degrees(const struct row_check *check, enum column_id column, double *value)
 {
+    const struct columns *columns = check->columns;
     double degrees = 0.0;
-    const char *why = table_read_number(check->table, check->row, column, &degrees);
+    const char *why = table_read_number(columns->table, check->row, columns->at[column], &degrees);
 
     if (why) {
         return row_refuse_cell(check, column, why);
@@ -156,43 +119,41 @@ static bool read_degrees_into_column_unit(const struct row_check *check, int col
     if (fabs(degrees) > ROW_ANGLE_MAX) {
         return row_refuse_cell(check, column, "is outside -1000000 .. 1000000");
     }
-    *value = (double)(float)described->from_degrees(degrees);
+    *value = (double)(float)column_radians(column, degrees);
     return true;
 }
 
-static bool read_cell(const struct reading *reading, const struct row_check *check, int index,
+static bool read_cell(const struct rows_kind *kind, const struct row_check *check, int index,
                       double *value)
 {
-    const struct rows_column *described = &reading->file->rows.kind->columns[index];
-    int column = reading->columns[index];
+    const struct rows_column *column = &kind->columns[index];
     int32_t whole = 0;
     float angle_rad = 0;
+    bool is_good;
 
-    if (described->flags & COLUMN_ANGLE && !reading->is_degrees[index]) {
-        bool is_good = row_read_and_wrap_angle_rad(check, column, &angle_rad);
-
+    if (columns_has_degrees(check->columns, column->id)) {
+        return read_degrees(check, column->id, value);
+    }
+    if (column->flags & COLUMN_ANGLE) {
+        is_good = row_read_and_wrap_angle_rad(check, column->id, &angle_rad);
         *value = (double)angle_rad;
         return is_good;
     }
-    if (reading->is_degrees[index]) {
-        return read_degrees_into_column_unit(check, column, described, value);
+    if (column->flags & COLUMN_STATUS) {
+        return read_status(check, column->id, value);
     }
-    if (described->flags & COLUMN_STATUS) {
-        return read_status(check, column, value);
-    }
-    if (described->flags & (COLUMN_INT16 | COLUMN_INT32)) {
-        bool is_good = described->flags & COLUMN_INT16 ? read_int16(check, column, &whole)
-                                                       : read_int32(check, column, &whole);
-
+    if (column->flags & (COLUMN_INT16 | COLUMN_INT32)) {
+        is_good = column->flags & COLUMN_INT16 ? read_int16(check, column->id, &whole)
+                                               : row_read_int32(check, column->id, &whole);
         *value = whole;
         return is_good;
     }
-    if (!read_float(check, column, value)) {
+    if (!read_float(check, column->id, value)) {
         return false;
     }
-    return !(described->flags & COLUMN_NO_ROOM) || rows_is_plus_zero((float)*value) ||
-           row_refuse(check, "%s cannot be stored in a %s", described->name,
-                      rho_message_type_name(reading->file->rows.kind->type));
+    return !(column->flags & COLUMN_NO_ROOM) || rows_is_plus_zero((float)*value) ||
+           row_refuse(check, "%s cannot be stored in a %s", column_name(column->id),
+                      rho_message_type_name(kind->type));
 }
 
 static bool read_cells(const struct reading *reading, const struct row_check *check, double *cells)
@@ -200,13 +161,13 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
     const struct rows_kind *kind = reading->file->rows.kind;
 
     for (int i = 0; i < kind->num_columns; i++) {
-        if (row_has_cell(check, reading->columns[i])) {
-            if (!read_cell(reading, check, i, &cells[i])) {
+        if (row_has_cell(check, kind->columns[i].id)) {
+            if (!read_cell(kind, check, i, &cells[i])) {
                 return false;
             }
         } else if ((kind->columns[i].flags & COLUMN_FILLED) &&
-                   !rows_geodetic_columns_replaces_column(&reading->geodetic, &kind->columns[i])) {
-            return row_refuse(check, "%s is empty", kind->columns[i].name);
+                   !rows_geodetic_replaces(&reading->geodetic, &kind->columns[i])) {
+            return row_refuse(check, "%s is empty", column_name(kind->columns[i].id));
         }
     }
     return true;
@@ -217,33 +178,31 @@ static void fill_missing_radar_place(const struct reading *reading, int32_t sens
                                      double *cells)
 {
     static const enum sensor_parameter_id ids[] = {SENSOR_X_M, SENSOR_Y_M, SENSOR_Z_M};
+    static const enum column_id columns[] = {COL_SENSOR_X_M, COL_SENSOR_Y_M, COL_SENSOR_Z_M};
 
-    if (reading->place < 0) {
-        return;
-    }
-    for (int i = 0; i < 3; i++) {
-        if (rows_is_cell_empty(cells[reading->place + i])) {
-            cells[reading->place + i] = (double)(float)parameters_value_of_sensor(
-                reading->parameters, sensor_id, ids[i], 0.0);
+    for (int i = 0; reading->file->rows.kind == &rows_kind_polar && i < 3; i++) {
+        double *cell = &cells[rows_column_index(&rows_kind_polar, columns[i])];
+
+        if (rows_is_cell_empty(*cell)) {
+            *cell = (double)(float)parameters_value_of_sensor(reading->parameters, sensor_id,
+                                                              ids[i], 0.0);
         }
     }
 }
 
-/* ---- Rows ---- */
-
-static bool read_time_sensor_and_scan_numbers(const struct reading *reading,
-                                              const struct row_check *check, struct row *row)
+/* Reads the row's times, its sensor and its scan's numbers. */
+static bool read_row_head(const struct reading *reading, const struct row_check *check,
+                          struct row *row)
 {
-    const char *why = table_read_time_us(check->table, check->row, reading->t_s, &row->time_us);
+    const int *at = reading->columns.at;
+    const bool has_sensor = reading->file->rows.kind->has_sensor && at[COL_SENSOR_ID] >= 0;
 
-    if (why) {
-        return row_refuse_cell(check, reading->t_s, why);
-    }
     row->epoch = 1;
-    return row_read_received(check, reading->received_s, &row->received_us) &&
-           (reading->sensor_id < 0 || read_int16(check, reading->sensor_id, &row->sensor_id)) &&
-           (reading->scan < 0 || read_int32(check, reading->scan, &row->scan)) &&
-           (reading->epoch < 0 || read_int32(check, reading->epoch, &row->epoch));
+    return row_read_time(check, COL_T_S, &row->time_us) &&
+           row_read_received(check, &row->received_us) &&
+           (!has_sensor || read_int16(check, COL_SENSOR_ID, &row->sensor_id)) &&
+           (at[COL_SCAN] < 0 || row_read_int32(check, COL_SCAN, &row->scan)) &&
+           (at[COL_EPOCH] < 0 || row_read_int32(check, COL_EPOCH, &row->epoch));
 }
 
 /* Encodes the newest row as a message of its own, and refuses a row that no message can hold. */
@@ -263,10 +222,11 @@ static bool check_newest_row_by_encoding(const struct reading *reading,
     if (rows->kind->encode(&part, message, &field) > 0) {
         return true;
     }
-    column = table_find_column(check->table, field);
-    return row_refuse(check, "%s%s%.40s is outside the range of a %s", field, column < 0 ? "" : " ",
-                      column < 0 ? "" : table_cell_text(check->table, check->row, column, buffer),
-                      rho_message_type_name(rows->kind->type));
+    column = table_find_column(check->columns->table, field);
+    return row_refuse(
+        check, "%s%s%.40s is outside the range of a %s", field, column < 0 ? "" : " ",
+        column < 0 ? "" : table_cell_text(check->columns->table, check->row, column, buffer),
+        rho_message_type_name(rows->kind->type));
 }
 
 static struct scan_number scan_and_epoch_number_of_row(const struct reading *reading,
@@ -289,7 +249,7 @@ static bool is_in_begun_scan(const struct reading *reading, const struct row *ro
 /* The time by which rows are ordered: of reception where the file has it, else the row's own. */
 static int64_t row_order_time_us(const struct reading *reading, const struct row *row)
 {
-    return reading->received_s >= 0 ? row->received_us : row->time_us;
+    return reading->file->rows.has_received ? row->received_us : row->time_us;
 }
 
 /* Checks that times do not go back, except within a numbered scan; lists may be in any order. */
@@ -298,11 +258,11 @@ static bool check_time_order(const struct reading *reading, const struct row_che
 {
     if (!reading->file->rows.kind->has_sensor || !reading->has_last ||
         row_order_time_us(reading, row) >= reading->last_us ||
-        (reading->received_s < 0 && is_in_begun_scan(reading, row))) {
+        (!reading->file->rows.has_received && is_in_begun_scan(reading, row))) {
         return true;
     }
     return row_refuse(check, "%s decreases from %.6f s to %.6f s",
-                      reading->received_s >= 0 ? "received_s" : "time",
+                      reading->file->rows.has_received ? "received_s" : "time",
                       (double)reading->last_us * 1e-6,
                       (double)row_order_time_us(reading, row) * 1e-6);
 }
@@ -332,7 +292,7 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
         return false;
     }
     fill_missing_radar_place(reading, row->sensor_id, cells);
-    if (!rows_geodetic_columns_fill_local_cells(&reading->geodetic, check, row->sensor_id, cells)) {
+    if (!rows_geodetic_fill_cells(&reading->geodetic, check, row->sensor_id, cells)) {
         return false;
     }
     if (rows->kind->why_not && rows_row_has_measurement(rows, &rows->list[rows->count - 1])) {
@@ -345,9 +305,9 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
 static bool add_row_or_refuse_with_reason(struct reading *reading, const struct row_check *check)
 {
     struct rows *rows = &reading->file->rows;
-    struct row row = {.line = check->table->lines[check->row], .order = check->row};
+    struct row row = {.line = check->columns->table->lines[check->row], .order = check->row};
 
-    if (!read_time_sensor_and_scan_numbers(reading, check, &row)) {
+    if (!read_row_head(reading, check, &row)) {
         return false;
     }
     if (!read_and_check_row(reading, check, &row, rows_add_row(rows, &row))) {
@@ -360,14 +320,14 @@ static bool add_row_or_refuse_with_reason(struct reading *reading, const struct 
 
 static void read_rows(struct reading *reading)
 {
+    const struct table *table = reading->columns.table;
     char reason[ROW_REASON_BYTES];
 
-    for (size_t i = 0; i < reading->table->num_rows; i++) {
-        const struct row_check check = {.table = reading->table, .row = i, .reason = reason};
+    for (size_t i = 0; i < table->num_rows; i++) {
+        const struct row_check check = {.columns = &reading->columns, .row = i, .reason = reason};
 
         if (!add_row_or_refuse_with_reason(reading, &check)) {
-            rows_refuse_row(reading->file, &(struct row){.line = reading->table->lines[i]}, "%s",
-                            reason);
+            rows_refuse_row(reading->file, &(struct row){.line = table->lines[i]}, "%s", reason);
         }
     }
 }
@@ -376,15 +336,16 @@ bool rows_read_table_and_has_any(struct rows_file *file, const char *path,
                                  const struct table *table, const struct parameters *parameters,
                                  bool keep_going)
 {
-    struct reading reading = {.file = file, .table = table, .parameters = parameters};
+    struct reading reading = {
+        .file = file, .columns = columns_find(table), .parameters = parameters};
 
     *file = (struct rows_file){.path = must_copy_text(path),
                                .keep_going = keep_going,
                                .rows_skipped = table->rows_skipped};
-    rows_init(&file->rows, kind_of_table(table));
-    find_columns(&reading);
+    rows_init(&file->rows, kind_of_columns(&reading.columns));
+    check_columns(&reading);
     read_rows(&reading);
-    rows_geodetic_columns_close(&reading.geodetic);
+    rows_geodetic_close(&reading.geodetic);
     scan_numbers_clear(&reading.numbers);
     return reading.has_last;
 }

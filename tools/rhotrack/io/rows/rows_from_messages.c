@@ -10,8 +10,6 @@
 
 #define SCAN_SHIFT 24 /* a scan has fewer than 2^24 rows: 32767 parts of 256 */
 
-/* ---- Messages ---- */
-
 void rows_from_messages_start(struct rows_collection *collection, const struct rows_kind *kind)
 {
     *collection = (struct rows_collection){.count = 0};
@@ -45,13 +43,6 @@ static const char *describe_bad_message(enum rho_status status, const struct row
     return reason;
 }
 
-/* Removes the rows of the newest message, down to a count of rows. */
-static void drop_newest_rows(struct rows *rows, size_t num_kept)
-{
-    rows->num_cells = rows->list[num_kept].cells;
-    rows->count = num_kept;
-}
-
 const char *rows_from_messages_add(struct rows_collection *collection, const char *channel,
                                    const uint8_t *data, size_t size,
                                    char reason[ROWS_FROM_MESSAGES_REASON_BYTES])
@@ -67,7 +58,8 @@ const char *rows_from_messages_add(struct rows_collection *collection, const cha
     }
     if (kind->has_sensor &&
         strtol(channel + strlen(kind->channel), NULL, 10) != message.key.sensor_id) {
-        drop_newest_rows(&collection->rows, before);
+        collection->rows.num_cells = collection->rows.list[before].cells;
+        collection->rows.count = before;
         return "sensor_id is not that of the channel";
     }
     message.received_us = message.key.time_us;
@@ -101,10 +93,8 @@ void rows_from_messages_add_event(struct rows_collection *collection, const char
     }
 }
 
-/* ---- Messages that belong together ---- */
-
-static int compare_sensor_epoch_scan_and_time(const struct rows_message *one,
-                                              const struct rows_message *other)
+/* Order by sensor, epoch, scan and time. */
+static int compare_scans(const struct rows_message *one, const struct rows_message *other)
 {
     int order = rows_compare_int64(one->key.sensor_id, other->key.sensor_id);
 
@@ -116,7 +106,7 @@ static int compare_sensor_epoch_scan_and_time(const struct rows_message *one,
 static int by_scan_part_and_arrival(const void *a, const void *b)
 {
     const struct rows_message *one = a, *other = b;
-    int order = compare_sensor_epoch_scan_and_time(one, other);
+    int order = compare_scans(one, other);
 
     order = order ? order : rows_compare_int64(one->part, other->part);
     return order ? order : rows_compare_int64((int64_t)one->arrival, (int64_t)other->arrival);
@@ -153,9 +143,8 @@ static uint64_t lowest_arrival_index(const struct rows_message *messages, size_t
  * Adds the row of a scan itself, which has no measurement, unless an element of the scan, added
  * from index `before` on, has the scan's time. Counts a list without elements.
  */
-static void append_scan_row_if_time_missing(struct ordering *ordering,
-                                            const struct rows_message *message, size_t before,
-                                            uint64_t order)
+static void append_scan_row(struct ordering *ordering, const struct rows_message *message,
+                            size_t before, uint64_t order)
 {
     int64_t earliest_us = INT64_MAX;
 
@@ -195,7 +184,7 @@ static void append_rows_of_one_scan(struct ordering *ordering, const struct rows
         }
     }
     ordering->collection->scans_incomplete += parts < (size_t)messages[0].num_parts;
-    append_scan_row_if_time_missing(ordering, &messages[0], before, order);
+    append_scan_row(ordering, &messages[0], before, order);
 }
 
 static int by_time(const void *a, const void *b)
@@ -214,7 +203,7 @@ static int by_reception(const void *a, const void *b)
     return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
-void rows_from_messages_sort_and_drop_repeats(struct rows_collection *collection)
+void rows_from_messages_sort(struct rows_collection *collection)
 {
     struct ordering ordering = {.collection = collection};
     size_t end;
@@ -230,7 +219,7 @@ void rows_from_messages_sort_and_drop_repeats(struct rows_collection *collection
 
         end = first + 1;
         while (end < collection->count &&
-               compare_sensor_epoch_scan_and_time(messages, collection->messages + end) == 0) {
+               compare_scans(messages, collection->messages + end) == 0) {
             end++;
         }
         append_rows_of_one_scan(&ordering, messages, end - first);

@@ -41,7 +41,7 @@ const char *rows_from_messages_add(struct rows_collection *collection, const cha
                                    char reason[ROWS_FROM_MESSAGES_REASON_BYTES]);
 
 /* Joins the parts of scans and sorts the rows; no message may be added after it. */
-void rows_from_messages_sort_and_drop_repeats(struct rows_collection *collection);
+void rows_from_messages_sort(struct rows_collection *collection);
 void rows_from_messages_free(struct rows_collection *collection);
 
 #endif

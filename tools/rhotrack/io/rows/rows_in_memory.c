@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/common.h"
 
@@ -19,11 +18,11 @@ const char *rows_track_status_name(int status)
     return names[status];
 }
 
-int rows_existing_column_index(const struct rows_kind *kind, const char *name)
+int rows_column_index(const struct rows_kind *kind, enum column_id id)
 {
     int i = 0;
 
-    while (strcmp(kind->columns[i].name, name) != 0) {
+    while (kind->columns[i].id != id) {
         i++;
     }
     return i;
@@ -88,8 +87,6 @@ bool rows_row_has_measurement(const struct rows *rows, const struct row *row)
     return false;
 }
 
-/* ---- For the kinds ---- */
-
 bool rows_is_cell_empty(double cell)
 {
     return isnan(cell);
@@ -108,6 +105,27 @@ bool rows_is_plus_zero(float value)
 double rows_zero_to_empty_cell(float value)
 {
     return rows_is_plus_zero(value) ? (double)NAN : (double)value;
+}
+
+void rows_put_sector(double cells[2], float from_rad, float to_rad)
+{
+    if (!rows_is_plus_zero(from_rad) || !rows_is_plus_zero(to_rad)) {
+        cells[0] = (double)from_rad;
+        cells[1] = (double)to_rad;
+    }
+}
+
+double *rows_begin_message(struct rows *rows, struct rows_message *message, const struct row *key,
+                           int16_t part, int16_t num_parts, int count)
+{
+    double *cells = rows_add_row(rows, key);
+
+    message->key = *key;
+    message->part = part;
+    message->num_parts = num_parts;
+    message->first = rows->count;
+    message->count = (size_t)count;
+    return cells;
 }
 
 double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us)

@@ -15,6 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "io/csv/columns.h"
 #include "rhotrack/message.h"
 
 enum rows_column_flag {
@@ -34,12 +35,9 @@ enum rows_column_flag {
 };
 
 struct rows_column {
-    const char *name;
+    enum column_id id;
     unsigned flags; /* enum rows_column_flag values, or-ed */
     int group;      /* columns of one group, not 0, are written together */
-    /* name of the column in degrees that may replace this one */
-    const char *degrees;
-    double (*from_degrees)(double value); /* converts a cell of the degrees column */
 };
 
 struct row {
@@ -113,10 +111,10 @@ struct rows_kind {
      */
     int (*pattern)(const double *cells);
 
-    /*
-     * Number of rows, from the first of the rest of a scan on, that fit one message: at least one.
-     */
-    size_t (*fit)(const struct rows_part *rest);
+    size_t part_max; /* largest number of rows in one message */
+
+    /* Whether one message can hold both rows. NULL function: always. */
+    bool (*fit)(const double *cells, const double *others);
 
     /*
      * Encodes a part as a message. Returns its size, or 0 and the name of the field that is out of
@@ -150,7 +148,7 @@ const struct rows_kind *rows_kind_of_channel(const char *channel);
 const char *rows_track_status_name(int status);
 
 /* Index of a column, which the kind must have. */
-int rows_existing_column_index(const struct rows_kind *kind, const char *name);
+int rows_column_index(const struct rows_kind *kind, enum column_id id);
 
 /* Order of two numbers as qsort wants it: negative, 0 or positive. */
 int rows_compare_int64(int64_t one, int64_t other);
@@ -165,7 +163,7 @@ double *rows_cells(const struct rows *rows, const struct row *row);
 /* Whether the row has a plot, a bearing, a target or a track. */
 bool rows_row_has_measurement(const struct rows *rows, const struct row *row);
 
-/* ---- For the kinds ---- */
+/* For the kinds. */
 
 /* Conversions between cells and message values: an empty cell and +0 both mean not given. */
 bool rows_is_cell_empty(double cell);
@@ -173,10 +171,59 @@ float rows_float_or_zero(double cell);       /* 0 for an empty cell */
 double rows_zero_to_empty_cell(float value); /* empty for +0 */
 bool rows_is_plus_zero(float value);         /* +0, not -0 */
 
+/* Sets the two cells of a sector, unless it is not given. */
+void rows_put_sector(double cells[2], float from_rad, float to_rad);
+
 /*
- * Adds a row of a message: of an element, dt_us after the message's utime, or of the scan itself.
+ * Begins the rows of a message that has `count` elements: sets its key and its part, and adds the
+ * row of the scan itself, whose cells it returns.
  */
+double *rows_begin_message(struct rows *rows, struct rows_message *message, const struct row *key,
+                           int16_t part, int16_t num_parts, int count);
+
+/* The key of a message of a sensor's scan. */
+#define ROWS_SENSOR_KEY(message)                                                                   \
+    (struct row)                                                                                   \
+    {                                                                                              \
+        .time_us = (message).utime, .sensor_id = (message).sensor_id, .epoch = (message).epoch,    \
+        .scan = (message).scan                                                                     \
+    }
+
+/* Adds the row of an element, dt_us after the message's utime. */
 double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us);
+
+/*
+ * Defines how a kind checks and encodes its message, as rows_kind.encode says, and decodes and
+ * checks it, as rows_kind.decode says.
+ */
+#define ROWS_CHECKED_CODEC(type)                                                                   \
+    static size_t encode_checked(const struct rho_message_##type *message, uint8_t *buffer,        \
+                                 const char **field)                                               \
+    {                                                                                              \
+        struct rho_message_place place;                                                            \
+        size_t size = 0;                                                                           \
+                                                                                                   \
+        if (rho_message_##type##_validate(message, &place) != RHO_OK) {                            \
+            *field = rho_message_##type##_field(&place);                                           \
+            return 0;                                                                              \
+        }                                                                                          \
+        return rho_message_##type##_encode(message, buffer, ROWS_MESSAGE_BYTES, &size) == RHO_OK   \
+                   ? size                                                                          \
+                   : 0;                                                                            \
+    }                                                                                              \
+                                                                                                   \
+    static enum rho_status decode_checked(const uint8_t *data, size_t size,                        \
+                                          struct rho_message_##type *message, const char **field)  \
+    {                                                                                              \
+        struct rho_message_place place;                                                            \
+        enum rho_status status = rho_message_##type##_decode(data, size, message);                 \
+                                                                                                   \
+        if (status == RHO_OK) {                                                                    \
+            status = rho_message_##type##_validate(message, &place);                               \
+            *field = status == RHO_OK ? *field : rho_message_##type##_field(&place);               \
+        }                                                                                          \
+        return status;                                                                             \
+    }
 
 /* Time of a part's plot after the time of its scan. */
 int32_t rows_plot_offset_us(const struct rows_part *part, size_t index);

@@ -7,9 +7,7 @@
 #include "base/common.h"
 #include "io/csv/tracks_writer.h"
 
-/* ---- Which columns ---- */
-
-static bool is_cell_neither_empty_nor_omitted_zero(const struct rows_column *column, double cell)
+static bool is_cell_written(const struct rows_column *column, double cell)
 {
     if (rows_is_cell_empty(cell)) {
         return false;
@@ -25,8 +23,7 @@ static bool is_column_wanted(const struct rows *rows, int index, bool with_covar
         return (column->flags & COLUMN_ALWAYS) || with_covariance;
     }
     for (size_t i = 0; i < rows->count; i++) {
-        if (is_cell_neither_empty_nor_omitted_zero(column,
-                                                   rows_cells(rows, &rows->list[i])[index])) {
+        if (is_cell_written(column, rows_cells(rows, &rows->list[i])[index])) {
             return true;
         }
     }
@@ -47,8 +44,6 @@ static void choose_columns(const struct rows *rows, bool with_covariance, bool *
         }
     }
 }
-
-/* ---- Cells ---- */
 
 static void write_comma_and_cell(FILE *file, const struct rows_column *column, double cell)
 {
@@ -76,7 +71,7 @@ static void write_header(FILE *file, const struct rows *rows, const bool *is_cho
     fputs(kind->has_sensor ? "t_s,sensor_id" : "t_s", file);
     for (int i = 0; i < kind->num_columns; i++) {
         if (is_chosen[i]) {
-            fprintf(file, ",%s", kind->columns[i].name);
+            fprintf(file, ",%s", column_name(kind->columns[i].id));
         }
     }
     fprintf(file, ",scan%s%s\n", kind->has_epoch ? ",epoch" : "",
@@ -120,8 +115,6 @@ void rows_write_csv(FILE *file, const struct rows *rows, bool with_covariance)
     }
 }
 
-/* ---- As a table ---- */
-
 /* The number with the fewest digits that gives the same float32, as the CSV file has it. */
 static double shortest_float(double cell)
 {
@@ -148,7 +141,7 @@ static struct table *start_table(const char *path, const struct rows *rows, cons
 
         if (is_chosen[i]) {
             list[count++] = (struct table_column){
-                .name = column->name,
+                .name = column_name(column->id),
                 .decimals = column->flags & (COLUMN_INT16 | COLUMN_INT32) ? 0 : TABLE_SHORTEST,
                 .word = column->flags & COLUMN_STATUS ? rows_track_status_name : NULL};
         }

@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-#include "io/csv/table_columns_and_cells.h"
+#include "io/csv/csv_table.h"
 #include "io/rows/rows_in_memory.h"
 
 void rows_write_csv(FILE *file, const struct rows *rows, bool with_covariance);

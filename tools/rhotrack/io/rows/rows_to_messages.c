@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/row_cells.h"
 
 #define OWN_TIME_MAX_US 60000000 /* limit of dt_us in messages; scan_interval_s is never longer */
 
@@ -21,8 +21,6 @@ struct scan_grouping {
     /* for lists without numbers: index of the row before with the same identity and time */
     size_t *before;
 };
-
-/* ---- Rows that belong together ---- */
 
 static int by_scan_and_order(const void *a, const void *b)
 {
@@ -51,7 +49,8 @@ struct named_row {
     size_t row;
 };
 
-static int by_time_track_or_target_and_row(const void *a, const void *b)
+/* Order by time, then by track or target, then by row. */
+static int by_time_name_and_row(const void *a, const void *b)
 {
     const struct named_row *one = a, *other = b;
     int order = rows_compare_int64(one->time_us, other->time_us);
@@ -64,7 +63,7 @@ static int by_time_track_or_target_and_row(const void *a, const void *b)
  * For each row, finds the row before with the same track or target at the same time; SIZE_MAX where
  * there is none.
  */
-static void find_earlier_rows_of_same_id_and_time(struct scan_grouping *grouping)
+static void find_repeated_ids(struct scan_grouping *grouping)
 {
     size_t count = grouping->file->rows.count;
     struct named_row *named = must_alloc(count * sizeof *named);
@@ -74,7 +73,7 @@ static void find_earlier_rows_of_same_id_and_time(struct scan_grouping *grouping
         named[i] = (struct named_row){grouping->rows[i].time_us,
                                       rows_cells(&grouping->file->rows, &grouping->rows[i])[0], i};
     }
-    qsort(named, count, sizeof *named, by_time_track_or_target_and_row);
+    qsort(named, count, sizeof *named, by_time_name_and_row);
     for (size_t i = 0; i < count; i++) {
         bool is_again = i > 0 && named[i].time_us == named[i - 1].time_us &&
                         !(named[i].name > named[i - 1].name);
@@ -95,7 +94,7 @@ static const char *find_differing_column(const struct scan_grouping *grouping, c
 {
     for (int i = 0; i < grouping->kind->num_columns; i++) {
         if ((grouping->kind->columns[i].flags & flag) && !is_same_cell(cells[i], others[i])) {
-            return grouping->kind->columns[i].name;
+            return column_name(grouping->kind->columns[i].id);
         }
     }
     return NULL;
@@ -149,8 +148,6 @@ static bool joins_scan(const struct scan_grouping *grouping, size_t first, size_
            (row->time_us > start->time_us && row->time_us - grouping->interval_us < start->time_us);
 }
 
-/* ---- What rows of a scan have in common ---- */
-
 /*
  * Checks that a row with a measurement agrees with the scan's first such row, and refuses it
  * otherwise.
@@ -191,8 +188,8 @@ static bool check_received_fits_scan(struct scan_grouping *grouping, const struc
     const struct row_check check = {.reason = reason};
 
     if (grouping->file->rows.has_received &&
-        !row_check_received_same_as_in_scan(&check, row->received_us, scan->head.received_us,
-                                            grouping->file->has_scan, grouping->interval_us)) {
+        !row_check_received(&check, row->received_us, scan->head.received_us,
+                            grouping->file->has_scan, grouping->interval_us)) {
         rows_refuse_row(grouping->file, row, "%s", reason);
         return false;
     }
@@ -222,14 +219,11 @@ static bool check_row_fits_scan(struct scan_grouping *grouping, const struct row
     return true;
 }
 
-/* ---- Scans ---- */
-
 /*
  * Time of a scan: with numbers that of its row without a measurement, which may stand anywhere,
  * else of its first row.
  */
-static int64_t time_of_empty_row_or_first_row_us(const struct scan_grouping *grouping, size_t first,
-                                                 size_t end)
+static int64_t scan_time_us(const struct scan_grouping *grouping, size_t first, size_t end)
 {
     for (size_t i = first; grouping->file->has_scan && i < end; i++) {
         if (!rows_row_has_measurement(&grouping->file->rows, &grouping->rows[i])) {
@@ -239,6 +233,18 @@ static int64_t time_of_empty_row_or_first_row_us(const struct scan_grouping *gro
     return grouping->rows[first].time_us;
 }
 
+/* Number of rows, from the first of the rest of a scan on, that fit one message. */
+static size_t rows_that_fit(const struct rows_kind *kind, const struct rows_part *rest)
+{
+    size_t count = rest->count > 0;
+
+    while (count < rest->count && count < kind->part_max &&
+           (!kind->fit || kind->fit(rows_part_cells(rest, 0), rows_part_cells(rest, count)))) {
+        count++;
+    }
+    return count;
+}
+
 static size_t count_parts(const struct scan_grouping *grouping, const struct rows_scan *scan)
 {
     struct rows_part rest = {
@@ -246,7 +252,7 @@ static size_t count_parts(const struct scan_grouping *grouping, const struct row
     size_t parts = 0;
 
     while (rest.count > 0) {
-        size_t taken = grouping->kind->fit(&rest);
+        size_t taken = rows_that_fit(grouping->kind, &rest);
 
         rest.first += taken;
         rest.count -= taken;
@@ -259,7 +265,7 @@ static size_t count_parts(const struct scan_grouping *grouping, const struct row
 static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_t end)
 {
     struct rows_to_messages *scans = grouping->scans;
-    struct rows_scan scan = {.utime = time_of_empty_row_or_first_row_us(grouping, first, end),
+    struct rows_scan scan = {.utime = scan_time_us(grouping, first, end),
                              .head = grouping->rows[first],
                              .first = first,
                              .order = grouping->rows[first].order};
@@ -329,8 +335,8 @@ static int by_due_time(const void *a, const void *b)
     return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
-void rows_to_messages_group_into_scans(struct rows_to_messages *scans, struct rows_file *file,
-                                       int64_t interval_us)
+void rows_to_messages_make_scans(struct rows_to_messages *scans, struct rows_file *file,
+                                 int64_t interval_us)
 {
     struct scan_grouping grouping = {.scans = scans,
                                      .file = file,
@@ -342,7 +348,7 @@ void rows_to_messages_group_into_scans(struct rows_to_messages *scans, struct ro
     qsort(file->rows.list, file->rows.count, sizeof *file->rows.list,
           grouping.kind->has_sensor ? by_scan_and_order : by_epoch_scan_time_and_order);
     if (!grouping.kind->has_sensor && !file->has_scan) {
-        find_earlier_rows_of_same_id_and_time(&grouping);
+        find_repeated_ids(&grouping);
     }
     for (size_t first = 0, end; first < file->rows.count; first = end) {
         for (end = first + 1; end < file->rows.count && joins_scan(&grouping, first, end); end++) {
@@ -362,8 +368,6 @@ void rows_to_messages_free(struct rows_to_messages *scans)
 {
     free(scans->list);
 }
-
-/* ---- Messages ---- */
 
 static void format_channel_name(const struct rows_kind *kind, int32_t sensor_id, char *channel)
 {
@@ -387,7 +391,7 @@ bool rows_to_messages_next_message(const struct rows_to_messages *scans, struct 
     part.scan = &scans->list[at->scan];
     part.first = part.scan->first + at->row;
     part.count = part.scan->count - at->row;
-    part.count = part.count > 0 ? kind->fit(&part) : 0;
+    part.count = rows_that_fit(kind, &part);
     output->utime = part.scan->due_us;
     format_channel_name(kind, part.scan->head.sensor_id, output->channel);
     output->size = kind->encode(&part, output->data, &field);

@@ -25,8 +25,8 @@ struct rows_to_messages {
  * Sorts the file's rows and groups them. Rows that cannot be in one scan (other sectors, positions,
  * sigmas, or measured quantities) are refused as rows_read_csv_or_asterix does.
  */
-void rows_to_messages_group_into_scans(struct rows_to_messages *scans, struct rows_file *file,
-                                       int64_t interval_us);
+void rows_to_messages_make_scans(struct rows_to_messages *scans, struct rows_file *file,
+                                 int64_t interval_us);
 void rows_to_messages_free(struct rows_to_messages *scans);
 
 /* Position of the next message. Initialised with zeros. */

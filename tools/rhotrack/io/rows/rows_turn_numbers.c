@@ -16,17 +16,17 @@ static bool plot_place_relative_to_sensor(const struct rows_file *file, const st
         return false;
     }
     if (kind == &rows_kind_polar) {
-        const double range_m = cells[rows_existing_column_index(kind, "range_m")];
-        const double azimuth_rad = cells[rows_existing_column_index(kind, "azimuth_rad")];
+        const double range_m = cells[rows_column_index(kind, COL_RANGE_M)];
+        const double azimuth_rad = cells[rows_column_index(kind, COL_AZIMUTH_RAD)];
 
         place_m[0] = range_m * cos(azimuth_rad);
         place_m[1] = range_m * sin(azimuth_rad);
     } else {
         struct rho_sensor sensor;
 
-        parameters_to_sensor_or_defaults(parameters, row->sensor_id, &sensor);
-        place_m[0] = cells[rows_existing_column_index(kind, "x_m")] - (double)sensor.x_m;
-        place_m[1] = cells[rows_existing_column_index(kind, "y_m")] - (double)sensor.y_m;
+        parameters_sensor_or_default(parameters, row->sensor_id, &sensor);
+        place_m[0] = cells[rows_column_index(kind, COL_X_M)] - (double)sensor.x_m;
+        place_m[1] = cells[rows_column_index(kind, COL_Y_M)] - (double)sensor.y_m;
     }
     return true;
 }
@@ -39,11 +39,10 @@ static bool may_have_turns(const struct rows_file *file, const struct parameters
            !file->rows.has_received && file->rows.count > 0 &&
            antenna_turns_are_wanted(parameters) &&
            rows_is_cell_empty(rows_cells(
-               &file->rows, file->rows.list)[rows_existing_column_index(kind, "sector_from_rad")]);
+               &file->rows, file->rows.list)[rows_column_index(kind, COL_SECTOR_FROM_RAD)]);
 }
 
-void rows_turns_find_and_set_turn_numbers(struct rows_file *file,
-                                          const struct parameters *parameters)
+void rows_number_turns(struct rows_file *file, const struct parameters *parameters)
 {
     struct antenna_turns *turns;
     double place_m[2];
@@ -56,12 +55,11 @@ void rows_turns_find_and_set_turn_numbers(struct rows_file *file,
     for (size_t i = 0; i < file->rows.count && goes_on; i++) {
         const struct row *row = &file->rows.list[i];
 
-        goes_on = !plot_place_relative_to_sensor(file, row, parameters, place_m) ||
-                  antenna_turns_add_row_and_wants_more(turns, row->sensor_id, row->time_us,
-                                                       place_m[0], place_m[1]);
+        goes_on =
+            !plot_place_relative_to_sensor(file, row, parameters, place_m) ||
+            antenna_turns_add_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
     }
-    if (antenna_turns_find_rules_report_and_have_any(turns, file->path,
-                                                     parameters->value[PARAMETER_V_MAX_MPS])) {
+    if (antenna_turns_find_rules(turns, file->path, parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {
             struct row *row = &file->rows.list[i];
             const bool has_place = plot_place_relative_to_sensor(file, row, parameters, place_m);

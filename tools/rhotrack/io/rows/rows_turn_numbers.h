@@ -12,7 +12,6 @@
  * Sets the rows' turn numbers, where they are plots without scan numbers, sectors or reception
  * times, and scan_interval_s is not set.
  */
-void rows_turns_find_and_set_turn_numbers(struct rows_file *file,
-                                          const struct parameters *parameters);
+void rows_number_turns(struct rows_file *file, const struct parameters *parameters);
 
 #endif

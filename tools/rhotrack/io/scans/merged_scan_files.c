@@ -7,13 +7,13 @@
 
 struct merged_scan_files merged_scan_files_open(char *const *paths, int num_paths,
                                                 const struct parameters *parameters,
-                                                struct scans_of_one_file_options options)
+                                                struct scan_source_options options)
 {
     struct merged_scan_files files = {.list = must_calloc((size_t)num_paths, sizeof *files.list),
                                       .count = num_paths};
 
     for (int i = 0; i < num_paths; i++) {
-        files.list[i].source = scans_of_one_file_open(paths[i], parameters, options);
+        files.list[i].source = scan_source_open(paths[i], parameters, options);
     }
     return files;
 }
@@ -25,7 +25,7 @@ bool merged_scan_files_next(struct merged_scan_files *files, struct sensor_scan 
     for (int i = 0; i < files->count; i++) {
         struct scan_file *file = &files->list[i];
 
-        file->has_next = file->has_next || scans_of_one_file_next(file->source, &file->next);
+        file->has_next = file->has_next || scan_source_next(file->source, &file->next);
         if (file->has_next && (!earliest || sensor_scan_time_us(&file->next) <
                                                 sensor_scan_time_us(&earliest->next))) {
             earliest = file;
@@ -44,7 +44,7 @@ uint64_t merged_scan_files_rows_skipped(const struct merged_scan_files *files)
     uint64_t rows = 0;
 
     for (int i = 0; i < files->count; i++) {
-        rows += scans_of_one_file_rows_skipped(files->list[i].source);
+        rows += scan_source_rows_skipped(files->list[i].source);
     }
     return rows;
 }
@@ -54,7 +54,7 @@ uint64_t merged_scan_files_bytes_read(const struct merged_scan_files *files)
     uint64_t bytes = 0;
 
     for (int i = 0; i < files->count; i++) {
-        bytes += scans_of_one_file_position(files->list[i].source);
+        bytes += scan_source_position(files->list[i].source);
     }
     return bytes;
 }
@@ -65,7 +65,7 @@ void merged_scan_files_close(struct merged_scan_files *files)
         if (files->list[i].has_next) {
             sensor_scan_free(&files->list[i].next);
         }
-        scans_of_one_file_close(files->list[i].source);
+        scan_source_close(files->list[i].source);
     }
     free(files->list);
 }

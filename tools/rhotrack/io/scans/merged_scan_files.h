@@ -6,11 +6,11 @@
 #ifndef RHOTRACK_TOOL_MERGED_SCAN_FILES_H
 #define RHOTRACK_TOOL_MERGED_SCAN_FILES_H
 
-#include "io/scans/scans_of_one_file.h"
+#include "io/scans/scan_source.h"
 
 /* One file, and its next scan read ahead. */
 struct scan_file {
-    struct scans_of_one_file *source;
+    struct scan_source *source;
     struct sensor_scan next;
     bool has_next;
 };
@@ -20,10 +20,10 @@ struct merged_scan_files {
     int count;
 };
 
-/* Opens the files. Errors as scans_of_one_file.h has them. */
+/* Opens the files. Errors as scan_source.h has them. */
 struct merged_scan_files merged_scan_files_open(char *const *paths, int num_paths,
                                                 const struct parameters *parameters,
-                                                struct scans_of_one_file_options options);
+                                                struct scan_source_options options);
 
 /* Takes the next scan, which the caller then owns. Returns false after the last. */
 bool merged_scan_files_next(struct merged_scan_files *files, struct sensor_scan *scan);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/scans/out_of_sequence_counts.h"
 
-void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
-                                         const struct rho_scan_assembler_counters *before,
-                                         const struct rho_scan_assembler *assembler)
+void out_of_sequence_counts_note(struct out_of_sequence_counts *order,
+                                 const struct rho_scan_assembler_counters *before,
+                                 const struct rho_scan_assembler *assembler)
 {
     /*
      * a restarted clock makes all waiting scans late in the call that accepts its own scan: these
@@ -14,15 +14,15 @@ void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
                            !assembler->is_restart;
 }
 
-enum rho_status out_of_sequence_counts_take_message(struct out_of_sequence_counts *order,
-                                                    struct rho_scan_assembler *assembler,
-                                                    const char *channel, const uint8_t *data,
-                                                    size_t size, int64_t now_us)
+enum rho_status out_of_sequence_counts_take(struct out_of_sequence_counts *order,
+                                            struct rho_scan_assembler *assembler,
+                                            const char *channel, const uint8_t *data, size_t size,
+                                            int64_t now_us)
 {
     const struct rho_scan_assembler_counters before = assembler->counters;
     enum rho_status status = rho_scan_assembler_take(assembler, channel, data, size, now_us);
 
-    out_of_sequence_counts_note_message(order, &before, assembler);
+    out_of_sequence_counts_note(order, &before, assembler);
     return status;
 }
 
@@ -31,9 +31,8 @@ static uint32_t subtract_or_zero(uint32_t count, uint32_t part)
     return count > part ? count - part : 0;
 }
 
-struct scan_losses
-out_of_sequence_counts_to_scan_losses(const struct out_of_sequence_counts *order,
-                                      const struct rho_scan_assembler_counters *counters)
+struct scan_losses out_of_sequence_counts_losses(const struct out_of_sequence_counts *order,
+                                                 const struct rho_scan_assembler_counters *counters)
 {
     return (struct scan_losses){
         .out_of_order = order->out_of_order,

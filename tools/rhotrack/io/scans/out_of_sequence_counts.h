@@ -27,21 +27,21 @@ struct scan_losses {
 };
 
 /* Passes a message to rho_scan_assembler_take, and counts whether a late scan was accepted. */
-enum rho_status out_of_sequence_counts_take_message(struct out_of_sequence_counts *order,
-                                                    struct rho_scan_assembler *assembler,
-                                                    const char *channel, const uint8_t *data,
-                                                    size_t size, int64_t now_us);
+enum rho_status out_of_sequence_counts_take(struct out_of_sequence_counts *order,
+                                            struct rho_scan_assembler *assembler,
+                                            const char *channel, const uint8_t *data, size_t size,
+                                            int64_t now_us);
 
 /*
  * Counts whether a message that the assembler has taken was a late scan that was accepted; before:
  * the assembler's counters before the message.
  */
-void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
-                                         const struct rho_scan_assembler_counters *before,
-                                         const struct rho_scan_assembler *assembler);
+void out_of_sequence_counts_note(struct out_of_sequence_counts *order,
+                                 const struct rho_scan_assembler_counters *before,
+                                 const struct rho_scan_assembler *assembler);
 
 struct scan_losses
-out_of_sequence_counts_to_scan_losses(const struct out_of_sequence_counts *order,
-                                      const struct rho_scan_assembler_counters *counters);
+out_of_sequence_counts_losses(const struct out_of_sequence_counts *order,
+                              const struct rho_scan_assembler_counters *counters);
 
 #endif

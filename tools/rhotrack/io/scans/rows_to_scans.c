@@ -11,7 +11,7 @@ void rows_to_scans_start(struct rows_to_scans *gather, size_t element_bytes, int
     *gather = (struct rows_to_scans){.element_bytes = element_bytes, .interval_us = interval_us};
 }
 
-void rows_to_scans_set_next_reception(struct rows_to_scans *gather, int64_t received_us)
+void rows_to_scans_set_reception(struct rows_to_scans *gather, int64_t received_us)
 {
     gather->has_clock = true;
     gather->clock_us = received_us;
@@ -22,8 +22,6 @@ static int64_t reception_time_or_row_time_us(const struct rows_to_scans *gather,
 {
     return gather->has_clock ? gather->clock_us : time_us;
 }
-
-/* ---- Rows ---- */
 
 /* The sensor's newest scan in memory; NULL where there is none. */
 static struct gathered_scan *newest_scan_of_sensor(struct rows_to_scans *gather, int32_t sensor_id)
@@ -56,10 +54,8 @@ static struct gathered_scan *find_scan_by_order(struct rows_to_scans *gather, si
                                                                         : NULL;
 }
 
-struct gathered_scan *rows_to_scans_find_scan_row_joins(struct rows_to_scans *gather,
-                                                        int32_t sensor_id,
-                                                        const struct scan_number *number,
-                                                        int64_t time_us)
+struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int32_t sensor_id,
+                                              const struct scan_number *number, int64_t time_us)
 {
     size_t order = scan_numbers_find_scan_index(&gather->numbers, sensor_id, number);
     struct gathered_scan *scan =
@@ -72,9 +68,8 @@ struct gathered_scan *rows_to_scans_find_scan_row_joins(struct rows_to_scans *ga
                : NULL;
 }
 
-bool rows_to_scans_check_time_not_back(const struct rows_to_scans *gather,
-                                       const struct gathered_scan *scan, int64_t time_us,
-                                       const struct row_check *check)
+bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct gathered_scan *scan,
+                              int64_t time_us, const struct row_check *check)
 {
     bool is_within = scan && scan->number.is_given && !gather->has_clock;
     int64_t clock_us = reception_time_or_row_time_us(gather, time_us);
@@ -95,20 +90,15 @@ static void note_last_heard_time(struct rows_to_scans *gather, struct gathered_s
     gather->has_rows = true;
 }
 
-/* Counts, in each open scan of the sensor, one more scan that began after it. */
-static void count_newer_scan_of_same_sensor(struct rows_to_scans *gather, int32_t sensor_id)
-{
-    for (size_t i = 0; i < gather->count; i++) {
-        gather->scans[i].begun_since += gather->scans[i].sensor_id == sensor_id;
-    }
-}
-
 struct gathered_scan *rows_to_scans_begin_scan(struct rows_to_scans *gather,
                                                const struct gathered_scan *heading, int64_t time_us)
 {
     struct gathered_scan *begun;
 
-    count_newer_scan_of_same_sensor(gather, heading->sensor_id);
+    /* Counts, in each open scan of the sensor, one more scan that began after it. */
+    for (size_t i = 0; i < gather->count; i++) {
+        gather->scans[i].begun_since += gather->scans[i].sensor_id == heading->sensor_id;
+    }
     gather->scans = must_make_room_for_one(gather->scans, gather->count, &gather->capacity,
                                            sizeof *gather->scans);
     begun = &gather->scans[gather->count++];
@@ -116,7 +106,7 @@ struct gathered_scan *rows_to_scans_begin_scan(struct rows_to_scans *gather,
     begun->start_us = begun->time_us = time_us;
     begun->begun_us = begun->heard_us = reception_time_or_row_time_us(gather, time_us);
     begun->order = gather->order++;
-    scan_numbers_drop_scans_before_index(&gather->numbers, gather->scans[0].order);
+    scan_numbers_drop_before(&gather->numbers, gather->scans[0].order);
     scan_numbers_set_scan(&gather->numbers, heading->sensor_id, &heading->number, begun->order);
     return begun;
 }
@@ -148,24 +138,16 @@ void rows_to_scans_add_empty_row(struct rows_to_scans *gather, struct gathered_s
     note_last_heard_time(gather, scan, time_us);
 }
 
-/* ---- Scans ---- */
-
-/*
- * Whether a scan gathered over an interval is complete by reception times, which lag by different
- * delays: its sensor's next scan has begun, or two intervals have passed.
- */
-static bool is_interval_scan_complete(const struct rows_to_scans *gather,
-                                      const struct gathered_scan *scan, int64_t since_us)
-{
-    return scan->begun_since > 0 || since_us >= 2 * gather->interval_us;
-}
-
 static bool is_scan_complete(const struct rows_to_scans *gather, const struct gathered_scan *scan)
 {
     int64_t since_us = gather->last_us - scan->begun_us;
 
     if (gather->has_clock && gather->interval_us > 0 && !scan->number.is_given) {
-        return is_interval_scan_complete(gather, scan, since_us);
+        /*
+         * Whether a scan gathered over an interval is complete by reception times, which lag by
+         * different delays: its sensor's next scan has begun, or two intervals have passed.
+         */
+        return scan->begun_since > 0 || since_us >= 2 * gather->interval_us;
     }
     if (scan->number.is_given && since_us <= RHO_LIMIT_OFFSET_US &&
         !(gather->begun_max && scan->begun_since >= gather->begun_max)) {
@@ -174,7 +156,7 @@ static bool is_scan_complete(const struct rows_to_scans *gather, const struct ga
     return since_us > 0 && since_us >= gather->interval_us;
 }
 
-int64_t gathered_scan_time_less_bias_us(const struct gathered_scan *scan)
+int64_t gathered_scan_time_us(const struct gathered_scan *scan)
 {
     return scan->time_us - scan->bias_us;
 }
@@ -184,15 +166,14 @@ static bool may_be_preceded_by_new_scan(const struct rows_to_scans *gather,
                                         const struct gathered_scan *scan)
 {
     return !gather->has_clock &&
-           gather->last_us - gather->bias_max_us < gathered_scan_time_less_bias_us(scan);
+           gather->last_us - gather->bias_max_us < gathered_scan_time_us(scan);
 }
 
 static bool goes_out_before(const struct rows_to_scans *gather, const struct gathered_scan *one,
                             const struct gathered_scan *other)
 {
-    return gather->has_clock
-               ? one->begun_us < other->begun_us
-               : gathered_scan_time_less_bias_us(one) < gathered_scan_time_less_bias_us(other);
+    return gather->has_clock ? one->begun_us < other->begun_us
+                             : gathered_scan_time_us(one) < gathered_scan_time_us(other);
 }
 
 /* Index of the scan that goes out before all others. */
@@ -222,7 +203,7 @@ bool rows_to_scans_take_scan(struct rows_to_scans *gather, bool all, struct gath
     memmove(gather->scans + first, gather->scans + first + 1,
             (gather->count - first) * sizeof *gather->scans);
     gather->has_given = true;
-    gather->given_us = gathered_scan_time_less_bias_us(scan);
+    gather->given_us = gathered_scan_time_us(scan);
     return true;
 }
 

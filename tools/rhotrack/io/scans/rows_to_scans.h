@@ -24,8 +24,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/csv/row_cells_read_and_check.h"
-#include "io/scans/hash_table_of_scans_by_number.h"
+#include "io/csv/row_cells.h"
+#include "io/scans/scan_numbers.h"
 #include "rhotrack/types.h"
 
 /* A scan under way with its `count` plots or bearings, each with the time of its row. */
@@ -76,24 +76,21 @@ void rows_to_scans_start(struct rows_to_scans *gather, size_t element_bytes, int
  * Sets the reception time of the row that is checked and added next. Either all rows have one, or
  * none.
  */
-void rows_to_scans_set_next_reception(struct rows_to_scans *gather, int64_t received_us);
+void rows_to_scans_set_reception(struct rows_to_scans *gather, int64_t received_us);
 
 /*
  * The scan in memory that a row belongs to, or NULL where it begins a new one. Valid until the next
  * scan begins or is taken.
  */
-struct gathered_scan *rows_to_scans_find_scan_row_joins(struct rows_to_scans *gather,
-                                                        int32_t sensor_id,
-                                                        const struct scan_number *number,
-                                                        int64_t time_us);
+struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int32_t sensor_id,
+                                              const struct scan_number *number, int64_t time_us);
 
 /*
  * Checks that a row's time does not go back; scan: the scan that the row belongs to, or NULL.
  * Returns false and sets the reason where it does.
  */
-bool rows_to_scans_check_time_not_back(const struct rows_to_scans *gather,
-                                       const struct gathered_scan *scan, int64_t time_us,
-                                       const struct row_check *check);
+bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct gathered_scan *scan,
+                              int64_t time_us, const struct row_check *check);
 
 /* Begins a scan at time_us with the sensor, number, bias, sector and line of `heading`. */
 struct gathered_scan *rows_to_scans_begin_scan(struct rows_to_scans *gather,
@@ -107,7 +104,7 @@ void rows_to_scans_add_empty_row(struct rows_to_scans *gather, struct gathered_s
                                  int64_t time_us);
 
 /* Time of a scan on the common clock, its sensor's bias subtracted. */
-int64_t gathered_scan_time_less_bias_us(const struct gathered_scan *scan);
+int64_t gathered_scan_time_us(const struct gathered_scan *scan);
 
 /*
  * Takes out the next complete scan, or with all the next scan, complete or not. The caller then

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/turns/turn_or_time_gap_search.h"
+#include "io/turns/turn_search.h"
 
 #define ROWS_MAX 6000        /* largest number of rows collected for the search */
 #define SENSOR_ROWS_MAX 3000 /* largest number of rows collected of one sensor */
@@ -54,8 +54,8 @@ static struct antenna *find_antenna(const struct antenna_turns *turns, int32_t s
     return NULL;
 }
 
-bool antenna_turns_add_row_and_wants_more(struct antenna_turns *turns, int32_t sensor_id,
-                                          int64_t time_us, double x_m, double y_m)
+bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+                           double x_m, double y_m)
 {
     struct antenna *antenna = find_antenna(turns, sensor_id);
 
@@ -121,8 +121,7 @@ static void report_rule(const struct antenna *antenna, const char *path)
                                     : "azimuth, counter-clockwise");
 }
 
-bool antenna_turns_find_rules_report_and_have_any(struct antenna_turns *turns, const char *path,
-                                                  double v_max_mps)
+bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, double v_max_mps)
 {
     const bool was_said = test_and_set_file_reported(path);
     bool has_any = false;

@@ -2,7 +2,7 @@
 /*
  * antenna_turns: numbers the turns of rotating antennas in files whose plots have a time each,
  * where scan_interval_s is not set. The first rows of a file are collected, a rule is found for
- * each of its sensors (turn_or_time_gap_search.h), and the rows then get the numbers of their
+ * each of its sensors (turn_search.h), and the rows then get the numbers of their
  * turns.
  */
 #ifndef RHOTRACK_TOOL_ANTENNA_TURNS_H
@@ -23,15 +23,14 @@ struct antenna_turns *antenna_turns_start(void);
  * Collects a row for the search of rules, in the order of time: a plot's place relative to its
  * sensor. Returns false once there are enough rows.
  */
-bool antenna_turns_add_row_and_wants_more(struct antenna_turns *turns, int32_t sensor_id,
-                                          int64_t time_us, double x_m, double y_m);
+bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+                           double x_m, double y_m);
 
 /*
  * Finds the rule of each sensor, and reports each on standard error, also for sensors whose scans
  * cannot be told. Returns false where no sensor has a rule.
  */
-bool antenna_turns_find_rules_report_and_have_any(struct antenna_turns *turns, const char *path,
-                                                  double v_max_mps);
+bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, double v_max_mps);
 
 /*
  * Number of the turn that a row belongs to, from 1; 0 where its sensor has no rule. A sensor's

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
+ * changes each.
+ */
+#ifndef RHOTRACK_ASSOCIATION_POLICY_H
+#define RHOTRACK_ASSOCIATION_POLICY_H
+
+/*
+ * Least share of a hypothesis in the mean, e^-9 of the best one, hypotheses.c: less likely ones
+ * have no visible effect. Half or twice: 0.7 nat more or less of hypotheses are computed, and the
+ * mean moves in its fourth digit.
+ */
+#define SHARE_SHOWN_MIN 1.2340980e-4f
+
+/*
+ * Largest loss of a hypothesis' weight at one update for a speed above the limit, nat,
+ * hypotheses_scan.c: half of the span of weights that are kept. Half: a history that is too fast
+ * lasts two more updates. Twice: one plot far off ends it at once.
+ */
+#define SPEED_LOSS_MAX_NAT 10.0f
+
+#endif

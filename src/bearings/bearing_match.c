@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bearing_match: the bearing of a look that is nearest to a state, and how well all
+ * bearings agree with the state. Most of a search's time is spent here.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+#include "policy.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+#define N RHO_PASSIVE_STATES
+
+static float square(float v)
+{
+    return v * v;
+}
+
+static float floored_sigma_rad(const struct rho_passive_search *search,
+                               const struct rho_batch_bearing *bearing)
+{
+    return bearing->sigma_rad > search->sigma_min_rad ? bearing->sigma_rad : search->sigma_min_rad;
+}
+
+struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
+                                                         unsigned scan, unsigned sensor,
+                                                         const float state_m[N])
+{
+    float step = search->step[scan];
+    return (struct rho_passive_offset){
+        .x_m = state_m[RHO_PASSIVE_X] + step * state_m[RHO_PASSIVE_DX] - search->x_m[sensor],
+        .y_m = state_m[RHO_PASSIVE_Y] + step * state_m[RHO_PASSIVE_DY] - search->y_m[sensor]};
+}
+
+static float squared_range_m2(struct rho_passive_offset offset)
+{
+    return square(offset.x_m) + square(offset.y_m);
+}
+
+/* Bin of a direction, counted along the diamond |x| + |y| = 1, which needs no arctangent. */
+static unsigned direction_bin(float x, float y)
+{
+    float size_x = x < 0.0f ? -x : x, size_y = y < 0.0f ? -y : y;
+    /* direction along the diamond: -1 .. 1 .. 3 from south, counter-clockwise */
+    float round = y / (size_x + size_y);
+    round = x < 0.0f ? 3.0f - round : 1.0f + round;
+    return (unsigned)(round * (0.25f * (float)RHO_PASSIVE_BINS)) % RHO_PASSIVE_BINS;
+}
+
+void rho_passive_mark_directions(struct rho_passive_search *search)
+{
+    const float rounding_rad = 1.0e-5f; /* bound of the rounding error of a direction */
+    struct rho_passive *passive = search->passive;
+    memset(passive->directions, 0, sizeof passive->directions);
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            uint32_t *bins = passive->directions[k][s];
+            for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
+                const struct rho_batch_bearing *at = &passive->batch.bearings[k][s][i];
+                float sine = MATCH_SIGMAS * floored_sigma_rad(search, at) + rounding_rad;
+                float cosine = sine < 1.0f ? rho_sqrt(1.0f - sine * sine) : -rounding_rad;
+                /* at most a right angle: positions behind the sensor never match */
+                sine = sine < 1.0f ? sine : 1.0f;
+                unsigned bin = direction_bin(at->cosine * cosine + at->sine * sine,
+                                             at->sine * cosine - at->cosine * sine);
+                unsigned last = direction_bin(at->cosine * cosine - at->sine * sine,
+                                              at->sine * cosine + at->cosine * sine);
+                for (; bin != last; bin = (bin + 1u) % RHO_PASSIVE_BINS) {
+                    bins[bin / 32u] |= 1u << bin % 32u;
+                }
+                bins[last / 32u] |= 1u << last % 32u;
+            }
+        }
+    }
+}
+
+/*
+ * Tests the marked bins: 0 means that no bearing of the look is within MATCH_SIGMAS of the
+ * direction, or that the range is 0 or far too large.
+ */
+static int may_have_bearing_near(const uint32_t *bins, struct rho_passive_offset offset)
+{
+    float size_m2 = squared_range_m2(offset);
+    if (!(size_m2 > 1.0f && size_m2 < 1.0e24f)) {
+        return 0;
+    }
+    unsigned bin = direction_bin(offset.x_m, offset.y_m);
+    return (int)(bins[bin / 32u] >> bin % 32u & 1u);
+}
+
+/*
+ * The bearing of a look with the smallest normalised residual, within MATCH_SIGMAS. The sine of the
+ * residual (cross range / range) stands for the angle, and squares are compared: this needs neither
+ * arctangent nor square root.
+ */
+static struct rho_passive_match find_nearest_bearing(const struct rho_passive_search *search,
+                                                     unsigned scan, unsigned sensor,
+                                                     struct rho_passive_offset offset,
+                                                     int include_claimed)
+{
+    const struct rho_passive *passive = search->passive;
+    const struct rho_batch_bearing *bearings = passive->batch.bearings[scan][sensor];
+    /* squared cross range that is MATCH_SIGMAS for the initial sigma of 1 / MATCH_SIGMAS rad */
+    float least_m2 = squared_range_m2(offset);
+    struct rho_passive_match nearest = {
+        .bearing = -1, .offset = offset, .sigma_rad = 1.0f / MATCH_SIGMAS};
+    for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
+        float cross_range_m = bearings[i].sine * offset.x_m - bearings[i].cosine * offset.y_m;
+        float sigma_rad = floored_sigma_rad(search, &bearings[i]);
+        if (square(cross_range_m * nearest.sigma_rad) < least_m2 * square(sigma_rad) &&
+            bearings[i].cosine * offset.x_m + bearings[i].sine * offset.y_m > 0.0f &&
+            (include_claimed || !passive->is_claimed[scan][sensor][i])) {
+            least_m2 = square(cross_range_m);
+            nearest = (struct rho_passive_match){(int)i, offset, cross_range_m, sigma_rad};
+        }
+    }
+    return nearest;
+}
+
+struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
+                                                   unsigned scan, unsigned sensor,
+                                                   const float state_m[N], int include_claimed)
+{
+    struct rho_passive_offset offset =
+        rho_passive_offset_from_sensor(search, scan, sensor, state_m);
+    if (!may_have_bearing_near(search->passive->directions[scan][sensor], offset)) {
+        return (struct rho_passive_match){.bearing = -1};
+    }
+    return find_nearest_bearing(search, scan, sensor, offset, include_claimed);
+}
+
+struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
+                                                   unsigned scan, unsigned sensor,
+                                                   const float state_m[N], unsigned claim)
+{
+    struct rho_passive_offset offset =
+        rho_passive_offset_from_sensor(search, scan, sensor, state_m);
+    if (claim == 0 || !(squared_range_m2(offset) > 1.0f)) {
+        return (struct rho_passive_match){.bearing = -1};
+    }
+    const struct rho_batch_bearing *bearing =
+        &search->passive->batch.bearings[scan][sensor][claim - 1u];
+    return (struct rho_passive_match){(int)claim - 1, offset,
+                                      bearing->sine * offset.x_m - bearing->cosine * offset.y_m,
+                                      floored_sigma_rad(search, bearing)};
+}
+
+float rho_passive_residual(const struct rho_passive_match *match)
+{
+    return match->cross_range_m / (rho_sqrt(squared_range_m2(match->offset)) * match->sigma_rad);
+}
+
+float rho_passive_agreement(const struct rho_passive_search *search, const float state_m[N],
+                            float least)
+{
+    const struct rho_passive *passive = search->passive;
+    unsigned num_scans = passive->batch.num_scans, num_sensors = passive->batch.num_sensors;
+    uint8_t is_near[RHO_MAX_PASSIVE_SCANS] = {0}; /* bit s of look k: sensor s may see the state */
+    unsigned left = num_scans * num_sensors;
+    for (unsigned k = 0; k < num_scans && (float)left > least; k++) {
+        unsigned seen = 0;
+        for (unsigned s = 0; s < num_sensors; s++) {
+            unsigned is_seen = (unsigned)may_have_bearing_near(
+                passive->directions[k][s], rho_passive_offset_from_sensor(search, k, s, state_m));
+            seen |= is_seen << s;
+            left -= 1u - is_seen;
+        }
+        is_near[k] = (uint8_t)seen;
+    }
+    /* upper bound of the agreement: each marked look counts 1 until its bearings are compared */
+    float most = (float)left;
+    for (unsigned k = 0; k < num_scans && most > least; k++) {
+        for (unsigned s = 0; s < num_sensors; s++) {
+            if (!(is_near[k] >> s & 1u)) {
+                continue;
+            }
+            struct rho_passive_match nearest = find_nearest_bearing(
+                search, k, s, rho_passive_offset_from_sensor(search, k, s, state_m),
+                !search->is_second);
+            float reach_m2 =
+                squared_range_m2(nearest.offset) * square(MATCH_SIGMAS * nearest.sigma_rad);
+            float share = square(nearest.cross_range_m) / reach_m2;
+            most -= 1.0f - (nearest.bearing >= 0 && share < 1.0f ? 1.0f - share : 0.0f);
+        }
+    }
+    return most;
+}

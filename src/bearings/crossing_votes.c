@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * crossing_votes: phase 2 of the search, a Hough transform. The crossings of
+ * bearings vote for lines (rho, theta), and the lines with the most votes are taken one after the
+ * other.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+#include "policy.h"
+#include "rhotrack/types.h"
+
+static int clipped_cell(float cell, int last)
+{
+    return cell > 0.0f ? (cell < (float)last ? (int)cell : last) : 0;
+}
+
+static unsigned max_votes_of_row(const struct rho_passive_search *search, unsigned row)
+{
+    unsigned most = 0;
+    for (unsigned column = 0; column < search->rho_cells; column++) {
+        unsigned votes = rho_count_bits(search->passive->cells[row][column]);
+        most = votes > most ? votes : most;
+    }
+    return most;
+}
+
+void rho_passive_vote_lines(struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    float cell_m = passive->config.rho_cell_m;
+    int last = search->rho_cells - 1;
+    memset(passive->cells, 0, sizeof passive->cells);
+    for (unsigned row = 0; row < search->theta_cells; row++) {
+        float cosine = search->cosine[row], sine = search->sine[row];
+        for (uint32_t n = 0; n < passive->num_points; n++) {
+            /* the scan's bit in the cells that the crossing's errors reach */
+            const struct rho_passive_point *point = &passive->points[n];
+            float rho_m = point->x_m * cosine + point->y_m * sine;
+            float middle = rho_m / cell_m + 0.5f * (float)search->rho_cells;
+            float reach = SPREAD_SIGMAS * rho_passive_rho_sigma_m(point, cosine, sine) / cell_m;
+            reach = reach < (float)SPREAD_CELLS_MAX ? reach : (float)SPREAD_CELLS_MAX;
+            int to = clipped_cell(middle + reach, last);
+            for (int i = clipped_cell(middle - reach, last); i <= to; i++) {
+                passive->cells[row][i] = (uint16_t)(passive->cells[row][i] | 1u << point->scan);
+            }
+        }
+        search->most_votes[row] = (uint8_t)max_votes_of_row(search, row);
+    }
+}
+
+struct cell {
+    int row, column;
+};
+
+static int has_exactly_votes(const struct rho_passive_search *search, int row, int column,
+                             unsigned votes)
+{
+    return row >= 0 && row < search->theta_cells && column >= 0 && column < search->rho_cells &&
+           rho_count_bits(search->passive->cells[row][column]) == votes;
+}
+
+/*
+ * Votes spread over several cells, so that cells of equal votes form plateaus. The line is taken
+ * from the cell in the middle of its plateau.
+ */
+static struct cell find_plateau_middle(const struct rho_passive_search *search, struct cell from,
+                                       unsigned votes)
+{
+    int reach = 2 * NEIGHBOUR_CELLS, sum_row = 0, sum_column = 0, count = 0;
+    for (int row = from.row - reach; row <= from.row + reach; row++) {
+        for (int column = from.column - reach; column <= from.column + reach; column++) {
+            if (has_exactly_votes(search, row, column, votes)) {
+                sum_row += row;
+                sum_column += column;
+                count++;
+            }
+        }
+    }
+    struct cell best = from;
+    int least = INT32_MAX;
+    for (int row = from.row - reach; row <= from.row + reach; row++) {
+        for (int column = from.column - reach; column <= from.column + reach; column++) {
+            int off_row = row * count - sum_row, off_column = column * count - sum_column;
+            int off = off_row * off_row + off_column * off_column;
+            if (has_exactly_votes(search, row, column, votes) && off < least) {
+                least = off;
+                best = (struct cell){row, column};
+            }
+        }
+    }
+    return best;
+}
+
+int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
+                               struct rho_passive_line *line)
+{
+    struct cell at = {0, 0};
+    unsigned votes = 0;
+    for (int row = 0; row < search->theta_cells; row++) {
+        if (search->most_votes[row] > votes) {
+            votes = search->most_votes[row];
+            at.row = row;
+        }
+    }
+    if (votes < votes_min || votes == 0) {
+        return 0;
+    }
+    while (rho_count_bits(search->passive->cells[at.row][at.column]) != votes) {
+        at.column++;
+    }
+    at = find_plateau_middle(search, at, votes);
+    /* clears the neighbours too, also across the ends of theta, where rho changes its sign */
+    for (int i = at.row - NEIGHBOUR_CELLS; i <= at.row + NEIGHBOUR_CELLS; i++) {
+        int is_turned = i < 0 || i >= search->theta_cells;
+        int row = i < 0 ? i + search->theta_cells : is_turned ? i - search->theta_cells : i;
+        int middle = is_turned ? search->rho_cells - 1 - at.column : at.column;
+        for (int column = middle - NEIGHBOUR_CELLS; column <= middle + NEIGHBOUR_CELLS; column++) {
+            if (column >= 0 && column < search->rho_cells) {
+                search->passive->cells[row][column] = 0;
+            }
+        }
+        search->most_votes[row] = (uint8_t)max_votes_of_row(search, (unsigned)row);
+    }
+    *line = (struct rho_passive_line){
+        .cosine = search->cosine[at.row],
+        .sine = search->sine[at.row],
+        .rho_m = ((float)at.column + 0.5f - 0.5f * (float)search->rho_cells) *
+                 search->passive->config.rho_cell_m};
+    return 1;
+}

@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * accumulator_pruning: branch and bound over intervals of theta rows. src/DESIGN.md,
+ * "Accumulator", derives the bound.
+ *
+ *     rows  0 ...                64 ...               128 ...
+ *           |--------------------|--------------------|------    (1)
+ *           |---------|----------|                               (2)
+ *                     |----|-----|
+ *                          |r r r|                               (3)
+ *
+ * (1) If no bin of rho has min_votes, all 64 rows are skipped. (2) Otherwise each half of the rows
+ * is searched, with the points of those bins that have min_votes. (3) When few rows are left, the
+ * remaining points vote in each row.
+ */
+#include <string.h>
+
+#include "accumulator_search.h"
+#include "policy.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+#define NONE UINT32_MAX
+
+#define CELL uint8_t
+#define NAME(f) f##_narrow
+#include "coarse_votes.h"
+#undef CELL
+#undef NAME
+#define CELL uint16_t
+#define NAME(f) f##_wide
+#include "coarse_votes.h"
+#undef CELL
+#undef NAME
+
+struct interval {
+    /* rows of theta, and the points left: the first num_points of room.few */
+    unsigned first, num_rows, num_points;
+};
+
+struct prune {
+    struct rho_accumulator_pass *pass;
+    /* circle around all points, its radius in rho cells */
+    float centre_x_m, centre_y_m, radius_cells;
+    unsigned next_row; /* first row of the next interval */
+    /* row that is filled, but not searched for peaks yet; NONE: there is none */
+    unsigned last_filled;
+    unsigned num_rows;     /* rows of the next interval; 1: pruning does not pay */
+    unsigned num_unpruned; /* rows to search without pruning when it does not pay */
+    unsigned work;         /* cost of the current interval with pruning */
+};
+
+static float middle_of(const float *values, unsigned n)
+{
+    float low = values[0], high = values[0];
+    for (unsigned i = 1; i < n; i++) {
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
+    }
+    return 0.5f * (low + high);
+}
+
+/* Computes the bin of each point on a ring of num_bins bins, a power of two. */
+static void find_ring_bins(const float *restrict x_m, const float *restrict y_m, unsigned n,
+                           struct rho_accumulator_projection place, unsigned num_bins,
+                           int32_t *restrict bins)
+{
+    int32_t ring = (int32_t)num_bins - 1;
+    for (unsigned i = 0; i < n; i++) {
+        bins[i] = (int32_t)(x_m[i] * place.by_x + y_m[i] * place.by_y + place.first) & ring;
+    }
+}
+
+/*
+ * Drops the points of an interval that cannot be part of a cell with min_votes in any of its rows:
+ * all points that vote for one cell in any row lie within two bin widths at the middle row.
+ */
+static void drop_hopeless_points(const struct prune *prune, struct interval *of)
+{
+    struct rho_accumulator_pass *pass = prune->pass;
+    struct rho_accumulator *accumulator = pass->accumulator;
+    float *x_m = accumulator->room.few.x_m, *y_m = accumulator->room.few.y_m;
+    int32_t *bins = accumulator->room.few.bins;
+    uint16_t *bits = accumulator->room.few.bits;
+    unsigned n = of->num_points, num_bins = BINS_MIN, least = pass->list.min_votes;
+    if (n < least || (!pass->counts_points && pass->points->num_scans < least)) {
+        of->num_points = 0;
+        return;
+    }
+    /* at least four bins a point, so that few points share one by chance */
+    while (num_bins < 4u * n && num_bins < RHO_ACCUMULATOR_BINS) {
+        num_bins *= 2u;
+    }
+    float theta_cell_rad = accumulator->config.theta_cell_rad;
+    float theta_rad = ((float)of->first + 0.5f * (float)of->num_rows) * theta_cell_rad;
+    float half_rad = 0.5f * (float)(of->num_rows - 1u) * theta_cell_rad;
+    float width_cells = prune->radius_cells * half_rad + 0.5f + RHO_ACCUMULATOR_ROUNDING;
+    float per_m = accumulator->cells_per_m / width_cells;
+    float by_x = rho_cos(theta_rad) * per_m, by_y = rho_sin(theta_rad) * per_m;
+    struct rho_accumulator_projection place = {by_x, by_y,
+                                               prune->radius_cells / width_cells + 1.0f -
+                                                   prune->centre_x_m * by_x -
+                                                   prune->centre_y_m * by_y};
+    find_ring_bins(x_m, y_m, n, place, num_bins, bins);
+    of->num_points = pass->is_narrow ? list_kept_points_narrow(pass, n, num_bins)
+                                     : list_kept_points_wide(pass, n, num_bins);
+    /* the points left, listed in bins[], change places with those at the front */
+    for (unsigned to = 0; of->num_points < n && to < of->num_points; to++) {
+        unsigned from = (unsigned)bins[to];
+        float x = x_m[from], y = y_m[from];
+        uint16_t bit = bits[from];
+        x_m[from] = x_m[to];
+        y_m[from] = y_m[to];
+        bits[from] = bits[to];
+        x_m[to] = x;
+        y_m[to] = y;
+        bits[to] = bit;
+    }
+}
+
+/*
+ * Lists the peaks of the row filled last, once the row after it is filled: rows that are skipped
+ * are cleared, and after the last row comes the first one, reversed.
+ */
+static void search_last_filled(struct prune *prune, unsigned next)
+{
+    struct rho_accumulator_pass *pass = prune->pass;
+    unsigned row = prune->last_filled, slot = (row + 1u) % 3u;
+    if (row == NONE) {
+        return;
+    }
+    if (row + 1u == pass->accumulator->theta_cells) {
+        rho_accumulator_fill_row(pass, slot, 0, 1);
+    } else if (next != row + 1u) {
+        rho_accumulator_clear_row(pass, slot);
+    }
+    rho_accumulator_find_row_peaks(pass, row);
+}
+
+/* Fills each row of an interval with its points, and lists the peaks of the rows before. */
+static void search_rows(struct prune *prune, struct interval of)
+{
+    struct rho_accumulator_pass *pass = prune->pass;
+    prune->work += of.num_rows * (WORK_FIXED + WORK_POINT * of.num_points);
+    for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
+        if (prune->last_filled == NONE || prune->last_filled + 1u != row) {
+            /* a gap: the row above has no votes, or for row 0 those of the last row, reversed */
+            search_last_filled(prune, row);
+            prune->last_filled = NONE;
+            if (row == 0) {
+                rho_accumulator_fill_row(pass, 2, pass->accumulator->theta_cells - 1u, 1);
+            } else {
+                rho_accumulator_clear_row(pass, (row - 1u) % 3u);
+            }
+        }
+        if (of.num_points == pass->num_points) {
+            rho_accumulator_fill_row(pass, row % 3u, row, 0);
+        } else {
+            rho_accumulator_fill_kept(pass, row % 3u, row, of.num_points);
+        }
+        search_last_filled(prune, row);
+        prune->last_filled = row;
+    }
+}
+
+/*
+ * Searches an interval depth-first by halving it. Returns the number of points that the whole
+ * interval keeps.
+ */
+static unsigned search_interval(struct prune *prune, struct interval whole)
+{
+    struct interval stack[HALVINGS + 2];
+    unsigned depth = 0, num_kept = 0;
+    stack[depth++] = whole;
+    while (depth > 0) {
+        struct interval of = stack[--depth];
+        unsigned num_before = of.num_points, num_left = of.num_rows / 2u;
+        prune->work += WORK_FIXED + WORK_POINT * num_before;
+        drop_hopeless_points(prune, &of);
+        num_kept = of.num_rows == whole.num_rows ? of.num_points : num_kept;
+        /* where most points are left, the halves save less than their bins cost */
+        int is_worth_halving = of.num_rows > ROWS_LEAST &&
+                               (of.num_rows > ROWS_BLUNT || 4u * of.num_points <= 3u * num_before);
+        if (of.num_points > 0 && is_worth_halving) {
+            stack[depth++] =
+                (struct interval){of.first + num_left, of.num_rows - num_left, of.num_points};
+            stack[depth++] = (struct interval){of.first, num_left, of.num_points};
+        } else if (of.num_points > 0) {
+            search_rows(prune, of);
+        }
+    }
+    return num_kept;
+}
+
+/*
+ * Searches the next interval of rows. Its length is doubled while nearly all points are dropped,
+ * and halved if few are: at the best length an interval costs about as much as its halves. If an
+ * interval cost more than its rows without pruning, or even ROWS_LEAST rows keep many points, all
+ * points vote in the next rows before pruning is tried again.
+ */
+static void search_next_interval(struct prune *prune, unsigned rows_left)
+{
+    unsigned n = prune->pass->num_points, num_rows = prune->num_rows;
+    int is_pruned = num_rows >= ROWS_LEAST;
+    num_rows = is_pruned ? num_rows : prune->num_unpruned;
+    num_rows = num_rows < rows_left ? num_rows : rows_left;
+    struct interval of = {prune->next_row, num_rows, n};
+    prune->next_row += num_rows;
+    if (!is_pruned) {
+        search_rows(prune, of);
+        prune->num_rows = ROWS_LEAST;
+        prune->num_unpruned += prune->num_unpruned < INTERVAL_ROWS_MAX ? prune->num_unpruned : 0u;
+        return;
+    }
+    prune->work = 0;
+    unsigned num_kept = search_interval(prune, of);
+    /* a row of all points costs half a unit a point less than one of kept points */
+    if (prune->work > num_rows * (WORK_FIXED + n * 3u / 2u)) {
+        prune->num_rows = 1;
+        return;
+    }
+    if (SHRINK_KEPT * num_kept > n) {
+        prune->num_rows /= 2u;
+        return;
+    }
+    prune->num_unpruned = ROWS_UNPRUNED;
+    if (GROW_KEPT * num_kept <= n && prune->num_rows < INTERVAL_ROWS_MAX) {
+        prune->num_rows *= 2u;
+    }
+}
+
+void rho_accumulator_search_pruned(struct rho_accumulator_pass *pass)
+{
+    const struct rho_accumulator_points *points = pass->points;
+    struct rho_accumulator *accumulator = pass->accumulator;
+    struct prune prune = {
+        .pass = pass, .last_filled = NONE, .num_rows = ROWS_START, .num_unpruned = ROWS_UNPRUNED};
+    unsigned n = pass->num_points, num_rows = accumulator->theta_cells;
+    if (n == 0) {
+        return;
+    }
+    /* each interval reorders this copy of the points */
+    for (unsigned scan = 0, i = 0; scan < points->num_scans; scan++) {
+        for (; i < points->scan_end[scan]; i++) {
+            accumulator->room.few.x_m[i] = points->x_m[i];
+            accumulator->room.few.y_m[i] = points->y_m[i];
+            accumulator->room.few.bits[i] = (uint16_t)(pass->counts_points ? 0u : 1u << scan);
+        }
+    }
+    float farthest2 = 0.0f;
+    prune.centre_x_m = middle_of(points->x_m, n);
+    prune.centre_y_m = middle_of(points->y_m, n);
+    for (unsigned i = 0; i < n; i++) {
+        float x_m = points->x_m[i] - prune.centre_x_m, y_m = points->y_m[i] - prune.centre_y_m;
+        float range2 = x_m * x_m + y_m * y_m;
+        farthest2 = range2 > farthest2 ? range2 : farthest2;
+    }
+    prune.radius_cells = rho_sqrt(farthest2) * accumulator->cells_per_m;
+    while (prune.next_row < num_rows) {
+        search_next_interval(&prune, num_rows - prune.next_row);
+    }
+    search_last_filled(&prune, NONE);
+    /* all points are within rho_max_m where rows are pruned */
+    pass->votes = n * num_rows;
+}
