@@ -57,7 +57,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
 /*
  * Ends a track. Its plots may start another one: rho_tracker_exclude_area prevents that.
  * Errors: NULL, STATE (as above), VALUE (no such track), CAPACITY (the report has no room for
- * another ended track: drop it after the next step). Cost: the report. Stack: 1.5 KB.
+ * another ended track: drop it after the next step). Cost: the report. Stack: 1.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker,
                                                       uint32_t track_id, struct rho_report *report);
@@ -79,7 +79,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_renumber_track(struct rho_tracker *tr
  * estimation it keeps its inputs. A thawed track goes on from where it would be, with an
  * uncertainty that has grown meanwhile.
  * Errors: NULL, CONFIG (RHO_MAX_EXCLUDED_AREAS is 0), STATE (as above, or the track is tentative),
- * VALUE (no such track). Cost: the report. Stack: 1.5 KB.
+ * VALUE (no such track). Cost: the report. Stack: 1.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker,
                                                         uint32_t track_id, int is_frozen,

@@ -20,9 +20,8 @@ static inline int is_usable_bearing(const struct rho_bearing *bearing)
  * Number of a scan's bearings that have a place in the report's fates and in the batch.
  *   first  place of the scan's first bearing among all bearings of the frame
  */
-static inline uint32_t num_bearings_with_room_in_fates(const struct rho_look *look,
-                                                       const struct rho_bearing_scan *scan,
-                                                       uint32_t first)
+static inline uint32_t num_bearings_with_fates(const struct rho_look *look,
+                                               const struct rho_bearing_scan *scan, uint32_t first)
 {
     const uint32_t room = first < look->num_gated ? look->num_gated - first : 0;
     const uint32_t num = scan->num_bearings < room ? scan->num_bearings : room;
@@ -36,8 +35,13 @@ struct batch_frame {
     uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
 };
 
-/* bearing_initiation.c: fills *held from step->frame; copies its fates back to the report */
-void rho_step_frame_to_batch(const struct step *step, struct batch_frame *held);
-void rho_step_batch_to_report(const struct step *step, struct batch_frame *held);
+/*
+ * bearing_initiation.c: fills *held from a frame with the look's fates; copies its fates back to
+ * those of the look
+ */
+void rho_step_frame_to_batch(const struct rho_look *look, const struct rho_frame *frame,
+                             struct batch_frame *held);
+void rho_step_batch_to_report(const struct rho_look *look, const struct batch_frame *held,
+                              const struct rho_frame *frame);
 
 #endif

@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * begin: begins a step of plots or of bearings: the report, the motion model, the order of time, and
+ * begin: a step of plots or bearings begins: the report, the motion model, the order of time, and
  * what is known of the sensor of a scan of plots.
  */
 #include <string.h>
 
 #include "phases.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
-
-/* The white acceleration noise of tracks: half of accel_max_mps2, kept up for a second. */
-#define ACCEL_SHARE 0.5f
-#define ACCEL_TIME_S 1.0f
 
 int rho_step_is_newest(const struct rho_tracker *tracker, int64_t time_us)
 {
@@ -25,12 +22,12 @@ int rho_step_is_usable_time(int64_t time_us)
 
 void rho_step_set_model(struct rho_tracker *tracker, struct rho_look *look)
 {
-    float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
+    const float accel_mps2 = STEADY_SHARE * tracker->config.accel_max_mps2;
     look->log_height = rho_log(RHO_CLUTTER_HEIGHT_M);
     look->log_rates = rho_log(2.0f * tracker->config.v_max_mps);
     look->log_range_rates = look->log_rates;
     look->model.speed_sigma_mps = tracker->config.v_max_mps;
-    look->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
+    look->model.noise_density = accel_mps2 * accel_mps2;
     if (rho_tracker_filter(&tracker->config) == RHO_TRACK_HYPOTHESES) {
         look->model.hypotheses = &tracker->hypotheses;
     } else if (tracker->config.input.is_estimated) {
@@ -38,9 +35,41 @@ void rho_step_set_model(struct rho_tracker *tracker, struct rho_look *look)
     }
 }
 
-/* Sets the look's sensor with its pd, notch and noise, and notes the scan in its history. */
-static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
+int rho_step_begin(struct step *step)
 {
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_report *report = step->report;
+    struct rho_look *look = &step->look;
+    look->num_gated = look->num_inputs < RHO_MAX_PLOTS ? look->num_inputs : RHO_MAX_PLOTS;
+    memset(report, 0, sizeof *report);
+    report->time_us = look->time_us;
+    report->num_plots = look->num_inputs;
+    rho_step_set_model(tracker, look);
+    /*
+     * An out-of-sequence scan teaches nothing, and may start tracks where it is the newest one of
+     * its initiator: a radar that is always late has an initiator of its own.
+     */
+    look->teaches = rho_step_is_newest(tracker, look->time_us);
+    look->starts =
+        look->teaches || (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
+    if (!look->teaches && !(RHO_SECTORS && rho_retrodiction_accepts(look))) {
+        memset(look->fates, RHO_FATE_STALE, look->num_gated);
+        tracker->counters.scans_late = rho_count(tracker->counters.scans_late, 1);
+        return 0;
+    }
+    tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
+    if (!look->teaches) {
+        tracker->counters.scans_retrodicted = rho_count(tracker->counters.scans_retrodicted, 1);
+    } else {
+        rho_manoeuvres_reset(tracker, look->time_us);
+        tracker->time_us = look->time_us;
+        tracker->has_time = 1;
+    }
+    if (step->frame) {
+        rho_step_begin_frame(tracker, step->frame, look);
+        return 1;
+    }
+    /* the sensor with its pd, notch and noise, and the scan in its history */
     look->row = rho_sensors_hear(tracker, look->scan->sensor_id);
     if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
         look->sensor = &look->row->sensor;
@@ -57,50 +86,5 @@ static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
     rho_look_open_noise(tracker, look);
     look->log_range_rates -= rho_measurement_log_aliases(look->sensor, tracker->config.v_max_mps);
     look->range_rates_mps = rho_exp(look->log_range_rates);
-}
-
-/*
- * Puts the step into the order of time. An out-of-sequence scan teaches nothing, and may start
- * tracks where it is the newest one of its initiator: a radar that is always late has an initiator
- * of its own. 0: the inputs are too old, and become STALE.
- */
-static int open_time(struct rho_tracker *tracker, struct rho_look *look)
-{
-    look->teaches = rho_step_is_newest(tracker, look->time_us);
-    look->starts =
-        look->teaches || (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
-    if (!look->teaches && !(RHO_SECTORS && rho_retrodiction_accepts(look))) {
-        memset(look->fates, RHO_FATE_STALE, look->num_gated);
-        tracker->counters.scans_late = rho_count(tracker->counters.scans_late, 1);
-        return 0;
-    }
-    tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
-    if (RHO_SECTORS && !look->teaches) {
-        tracker->counters.scans_retrodicted = rho_count(tracker->counters.scans_retrodicted, 1);
-        return 1;
-    }
-    rho_manoeuvres_reset(tracker, look->time_us);
-    tracker->time_us = look->time_us;
-    tracker->has_time = 1;
-    return 1;
-}
-
-int rho_step_begin(struct step *step)
-{
-    struct rho_report *report = step->report;
-    struct rho_look *look = &step->look;
-    look->num_gated = look->num_inputs < RHO_MAX_PLOTS ? look->num_inputs : RHO_MAX_PLOTS;
-    memset(report, 0, sizeof *report);
-    report->time_us = look->time_us;
-    report->num_plots = look->num_inputs;
-    rho_step_set_model(step->tracker, look);
-    if (!open_time(step->tracker, look)) {
-        return 0;
-    }
-    if (step->frame) {
-        rho_step_begin_frame(step);
-    } else {
-        open_sensor(step->tracker, look);
-    }
     return 1;
 }

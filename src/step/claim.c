@@ -2,85 +2,29 @@
 /*
  * claim: gates the scan's plots and assigns them to tracks: at most one plot to each track.
  */
+#include <string.h>
+
 #include "phases.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 
-/* Velocities that a track has when its Hough gate begins: at its fourth plot, as in the paper. */
-#define HOUGH_VELOCITIES_MIN 3
 /*
- * Gain of a plot, in nat, when its Hough residual (m/s) falls by a factor of e. That of confirmed
- * tracks is so large that a residual a tenth smaller outweighs any gain of a tentative track.
+ * A plot's gain falls with the log of its Hough residual. The paper orders the plots of one track.
+ * Between tracks residuals are compared by their ratio: by differences, a plot that fits no track
+ * could displace one that fits.
  */
-#define HOUGH_CONFIRMED_NAT 200.0f
-#define HOUGH_TENTATIVE_NAT 1.0f
-#define HOUGH_GAIN_MAX 16.0f          /* offset that keeps the gain of every plot above a miss */
-#define HOUGH_RESIDUAL_MIN_MPS 0.001f /* residuals below this are equally good */
-
-/* ---- the plots of the scan ------------------------------------------------------------------- */
-
-/* Widens the bounds of plot noise and plot time offset, by which gates size their search boxes. */
-static void widen_noise_and_time_bounds(struct rho_look *look, const struct rho_plot *plot)
-{
-    float offset_s = (float)plot->offset_us * 1e-6f;
-    const float factor = rho_measurement_factor_max(look->sensor);
-    look->sigma_max_m = rho_larger(look->sigma_max_m, factor * rho_plot_sigma_m(plot));
-    look->offset_max_s = rho_larger(look->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
-    if (look->scan->measures & RHO_MEASURES_Z) {
-        look->sigma_max_m = rho_larger(look->sigma_max_m, factor * plot->sigma_up_m);
-    }
-}
-
-/* Sets each plot's fate: INVALID where it is malformed or outside of the coverage, else HELD. */
-static void validate_plots(struct rho_tracker *tracker, struct rho_look *look)
-{
-    for (uint32_t i = 0; i < look->num_gated; i++) {
-        const struct rho_plot *plot = &look->scan->plots[i];
-        int valid = rho_measurement_is_valid_plot(plot, look->scan->measures);
-        if (valid && !rho_coverage_holds_plot(look->sensor, plot, look->scan->measures)) {
-            valid = 0;
-            tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
-        }
-        look->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
-        if (valid) {
-            rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
-            widen_noise_and_time_bounds(look, plot);
-        }
-    }
-}
-
-/* ---- tracks with a Kalman filter ------------------------------------------------------------- */
-
-/* Opens the Hough gate by the velocities of the track's last two estimates. 0: it has no gate. */
-static int open_hough_gate_by_last_two_velocities(const struct rho_tracker *tracker,
-                                                  const struct rho_track *track,
-                                                  struct rho_gate_hough *hough)
-{
-    const struct rho_tracker_config *config = &tracker->config;
-    uint8_t planes = config->planes;
-    if (!rho_kalman_has_axis(&track->kalman, 2)) {
-        planes = RHO_GATE_PLANE_XY;
-    }
-    return RHO_HAS_FILTER(RHO_TRACK_INPUT) && config->gate == RHO_TRACKER_HOUGH &&
-           !RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
-           track->num_velocities >= HOUGH_VELOCITIES_MIN &&
-           rho_gate_hough_init(hough, planes, config->theta_cell_rad, track->before_mps,
-                               track->newest_mps) == RHO_OK;
-}
-
-/* The plot's measured velocity, or the one that leads from the track's last update to the plot. */
-static void velocity_implied_by_plot(const struct rho_look *look, const struct rho_track *track,
-                                     const struct rho_plot *plot, float velocity_mps[3])
+static float gain_by_hough_residual(const struct rho_look *look, const struct rho_track *track,
+                                    const struct rho_gate_hough *hough, const struct rho_plot *plot)
 {
     const float measured_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
-    const int has_z = (look->scan->measures & RHO_MEASURES_Z) != 0;
-    float dt_s = rho_seconds_between(track->updated_us, look->time_us + plot->offset_us);
-    for (int axis = 0; axis < 3; axis++) {
-        velocity_mps[axis] = track->newest_mps[axis];
-        if (axis == 2 && !has_z) {
-            continue;
-        }
+    const float dt_s = rho_seconds_between(track->updated_us, look->time_us + plot->offset_us);
+    const int num_axes = look->scan->measures & RHO_MEASURES_Z ? 3 : 2;
+    float velocity_mps[3];
+    memcpy(velocity_mps, track->newest_mps, sizeof velocity_mps);
+    /* the measured velocity, or the one that leads from the last update to the plot */
+    for (int axis = 0; axis < num_axes; axis++) {
         if (look->scan->measures & RHO_MEASURES_VELOCITY) {
             velocity_mps[axis] = measured_mps[axis];
         } else if (dt_s > 0.0f) {
@@ -88,21 +32,9 @@ static void velocity_implied_by_plot(const struct rho_look *look, const struct r
             velocity_mps[axis] += (place_m[axis] - track->kalman.state[axis]) / dt_s;
         }
     }
-}
-
-/*
- * A plot's gain falls with the log of its Hough residual; the offset makes any plot better than a
- * miss. The paper orders the plots of one track. Between tracks residuals are compared by their
- * ratio: by differences, a plot that fits no track could displace one that fits.
- */
-static float gain_by_hough_residual(const struct rho_look *look, const struct rho_track *track,
-                                    const struct rho_gate_hough *hough, const struct rho_plot *plot)
-{
-    float velocity_mps[3];
-    velocity_implied_by_plot(look, track, plot, velocity_mps);
-    return (track->status == RHO_TRACK_TENTATIVE ? HOUGH_TENTATIVE_NAT : HOUGH_CONFIRMED_NAT) *
-           (HOUGH_GAIN_MAX -
-            rho_log(HOUGH_RESIDUAL_MIN_MPS + rho_gate_hough_distance_mps(hough, velocity_mps)));
+    /* the offset 16 makes any plot better than a miss; 1 mm/s keeps the logarithm finite */
+    return (track->status == RHO_TRACK_TENTATIVE ? 1.0f : HOUGH_CONFIRMED_NAT) *
+           (16.0f - rho_log(0.001f + rho_gate_hough_distance_mps(hough, velocity_mps)));
 }
 
 static int is_held_plot_in_box(const struct rho_look *look, const struct rho_gate *gate,
@@ -114,26 +46,10 @@ static int is_held_plot_in_box(const struct rho_look *look, const struct rho_gat
            look->fates[i] == RHO_FATE_HELD;
 }
 
-/*
- * Widens a gate's box to the Hough gate's window: where a manoeuvre begins, the target's plot lies
- * outside the chi-square gate, as input estimation notices an input at the second plot only. Used
- * with measured velocities alone: by positions alone a far plot fits as well as a near one.
- */
-static void widen_box_for_hough_gate(const struct rho_look *look, const struct rho_track *track,
-                                     float half_m[2])
-{
-    const struct rho_tracker_config *config = &look->tracker->config;
-    const float dt_s = rho_seconds_between(track->updated_us, look->time_us);
-    for (int axis = 0; axis < 2; axis++) {
-        half_m[axis] = config->hough_window_m > 0.0f
-                           ? rho_larger(half_m[axis], config->hough_window_m)
-                           : half_m[axis] + 2.0f * config->accel_max_mps2 * dt_s * dt_s;
-    }
-}
-
 static void offer_gated_plots(struct rho_tracker *tracker, const struct rho_look *look,
                               struct rho_work *work, unsigned row)
 {
+    const struct rho_tracker_config *config = &tracker->config;
     const struct rho_track *track = &tracker->tracks[row];
     struct rho_gate gate;
     struct rho_gate_hough hough;
@@ -141,12 +57,26 @@ static void offer_gated_plots(struct rho_tracker *tracker, const struct rho_look
     float half_m[2];
     const float log_miss = rho_look_detection(look, track).log_miss;
     const float log_density = rho_clutter_log_at_track(look, track);
-    const int by_hough = open_hough_gate_by_last_two_velocities(tracker, track, &hough);
+    /* the Hough gate is of the last two estimates' velocities, from the fourth plot on (paper) */
+    const int by_hough =
+        RHO_HAS_FILTER(RHO_TRACK_INPUT) && config->gate == RHO_TRACKER_HOUGH &&
+        track->num_velocities >= 3 &&
+        rho_gate_hough_init(
+            &hough, rho_kalman_has_axis(&track->kalman, 2) ? config->planes : RHO_GATE_PLANE_XY,
+            config->theta_cell_rad, track->before_mps, track->newest_mps) == RHO_OK;
     const int has_window = by_hough && (look->scan->measures & RHO_MEASURES_VELOCITY);
     rho_score_open_gate(look, track, look->scan->measures, &gate);
     rho_gate_box(&gate, look->sigma_max_m, look->offset_max_s, half_m);
-    if (has_window) {
-        widen_box_for_hough_gate(look, track, half_m);
+    /*
+     * Where a manoeuvre begins, the target's plot lies outside the chi-square gate, as input
+     * estimation notices an input at the second plot only: the box widens to the Hough gate's
+     * window. By positions alone a far plot would fit as well as a near one.
+     */
+    const float dt_s = rho_seconds_between(track->updated_us, look->time_us);
+    for (int axis = 0; axis < 2 && has_window; axis++) {
+        half_m[axis] = config->hough_window_m > 0.0f
+                           ? rho_larger(half_m[axis], config->hough_window_m)
+                           : half_m[axis] + 2.0f * config->accel_max_mps2 * dt_s * dt_s;
     }
     struct plots_near near = rho_plots_near(
         tracker, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
@@ -173,25 +103,32 @@ static void offer_gated_plots(struct rho_tracker *tracker, const struct rho_look
     }
 }
 
-/* ---- tracks with hypotheses ------------------------------------------------------------------ */
-
-static void offer_plots_scored_by_hypotheses(struct rho_tracker *tracker,
-                                             const struct rho_look *look, struct rho_work *work,
-                                             unsigned row)
+/* Sets each plot's fate: INVALID where it is malformed or outside of the coverage, else HELD. */
+static void validate_plots(struct rho_tracker *tracker, struct rho_look *look)
 {
-    const float log_miss = rho_score_log_miss(look, &tracker->tracks[row]);
-    struct plot_scores scores;
-    uint32_t plot;
-    float gain_nat;
-    rho_score_begin(tracker, look, work, row, &scores);
-    while (rho_score_next(tracker, look, work, &scores, &plot, &gain_nat)) {
-        if (gain_nat > log_miss) {
-            rho_score_add_pair(tracker, row, plot, gain_nat - log_miss);
+    const uint32_t measures = look->scan->measures;
+    const float factor = rho_measurement_factor_max(look->sensor);
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        const struct rho_plot *plot = &look->scan->plots[i];
+        const float offset_s = (float)plot->offset_us * 1e-6f;
+        look->fates[i] = RHO_FATE_INVALID;
+        if (!rho_measurement_is_valid_plot(plot, measures)) {
+            continue;
+        }
+        if (!rho_coverage_holds_plot(look->sensor, plot, measures)) {
+            tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
+            continue;
+        }
+        look->fates[i] = RHO_FATE_HELD;
+        rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
+        /* bounds by which gates size their search boxes */
+        look->sigma_max_m = rho_larger(look->sigma_max_m, factor * rho_plot_sigma_m(plot));
+        look->offset_max_s = rho_larger(look->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+        if (measures & RHO_MEASURES_Z) {
+            look->sigma_max_m = rho_larger(look->sigma_max_m, factor * plot->sigma_up_m);
         }
     }
 }
-
-/* ---- the phase ------------------------------------------------------------------------------- */
 
 void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
@@ -206,13 +143,23 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
     rho_work_begin_shares(look, work);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
+        const struct rho_track *track = &tracker->tracks[row];
+        if (track->status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
             continue;
         }
         if (look->bearings) {
             rho_step_offer_bearings(tracker, look, row);
-        } else if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
-            offer_plots_scored_by_hypotheses(tracker, look, work, row);
+        } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+            const float log_miss = rho_score_log_miss(look, track);
+            struct plot_scores scores;
+            uint32_t plot;
+            float gain_nat;
+            rho_score_begin(tracker, look, work, row, &scores);
+            while (rho_score_next(tracker, look, work, &scores, &plot, &gain_nat)) {
+                if (gain_nat > log_miss) {
+                    rho_score_add_pair(tracker, row, plot, gain_nat - log_miss);
+                }
+            }
         } else {
             offer_gated_plots(tracker, look, work, row);
         }

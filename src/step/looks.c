@@ -3,10 +3,11 @@
  * looks: a step takes its looks one after the other. Tracks are updated by one look before the next
  * one is claimed, and meet it with narrower gates.
  *
- * A scan of more than RHO_MAX_PLOTS plots is claimed in parts of RHO_MAX_PLOTS, a look each: existing
- * tracks come first, and may claim the plots beyond that limit, too. In each part the tracks that
- * have no plot yet claim one; a track without a plot after the last part is missed. Only plots of
- * the first part have places in fates[] and are held: unclaimed plots of later parts are NO_ROOM.
+ * A scan of more than RHO_MAX_PLOTS plots is claimed in parts of RHO_MAX_PLOTS, a look each:
+ * existing tracks come first, and may claim the plots beyond that limit, too. In each part the
+ * tracks that have no plot yet claim one; a track without a plot after the last part is missed.
+ * Only plots of the first part have places in fates[] and are held: unclaimed plots of later parts
+ * are NO_ROOM.
  */
 #include <string.h>
 
@@ -16,43 +17,11 @@
 /* Largest row of a plot that the int16_t field of a track holds. */
 #define ROWS_MAX ((uint32_t)INT16_MAX)
 
-static void select_scan_part(struct rho_look *look, struct rho_scan *part,
-                             const struct rho_scan *whole, uint32_t first, uint32_t end)
-{
-    *part = *whole;
-    part->plots += first;
-    part->num_plots = end - first < RHO_MAX_PLOTS ? end - first : RHO_MAX_PLOTS;
-    look->scan = part;
-    look->first_row = first;
-    look->num_gated = part->num_plots;
-    look->has_more_parts = end - first > RHO_MAX_PLOTS;
-}
-
-/*
- * Excludes tracks that were assigned a plot, taken or refused, from later parts; their plots get
- * the rows of the whole scan. Counts claimed and invalid plots that have no place in fates[].
- */
-static void exclude_assigned_tracks(struct step *step)
-{
-    struct rho_tracker *tracker = step->tracker;
-    for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        struct rho_track *track = &tracker->tracks[i];
-        const int had = rho_assignment_column(&tracker->assignment, i) != RHO_ASSIGNMENT_NONE;
-        if (rho_look_has_in_view(&step->look, i) && (track->plot >= 0 || had)) {
-            track->plot =
-                (int16_t)(track->plot < 0 ? -1 : track->plot + (int32_t)step->look.first_row);
-            step->look.in_view[i / 32] &= ~(1u << i % 32);
-        }
-    }
-    for (uint32_t i = 0; i < step->look.num_gated && step->look.first_row > 0; i++) {
-        step->num_beyond_claimed += step->report->fates[i] == RHO_FATE_CLAIMED ? 1u : 0u;
-        step->num_beyond_invalid += step->report->fates[i] == RHO_FATE_INVALID ? 1u : 0u;
-    }
-}
-
 static void take_parts(struct step *step)
 {
-    const struct rho_look whole = step->look;
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_look *look = &step->look;
+    const struct rho_look whole = *look;
     const uint32_t most = RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS < ROWS_MAX
                               ? RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS
                               : ROWS_MAX;
@@ -60,55 +29,67 @@ static void take_parts(struct step *step)
     uint8_t fates[RHO_MAX_PLOTS];
     struct rho_scan part;
     for (uint32_t first = 0; first < end; first += RHO_MAX_PLOTS) {
-        select_scan_part(&step->look, &part, whole.scan, first, end);
-        rho_step_claim(step->tracker, &step->look, &step->work);
-        rho_step_update(step->tracker, &step->look, &step->work);
-        exclude_assigned_tracks(step);
+        part = *whole.scan;
+        part.plots += first;
+        part.num_plots = end - first < RHO_MAX_PLOTS ? end - first : RHO_MAX_PLOTS;
+        look->scan = &part;
+        look->first_row = first;
+        look->num_gated = part.num_plots;
+        look->has_more_parts = end - first > RHO_MAX_PLOTS;
+        rho_step_claim(tracker, look, &step->work);
+        rho_step_update(tracker, look, &step->work);
+        /* later parts are not for tracks that were assigned a plot, taken or refused */
+        for (unsigned i = 0; i < tracker->num_tracks; i++) {
+            struct rho_track *track = &tracker->tracks[i];
+            const int had = rho_assignment_column(&tracker->assignment, i) != RHO_ASSIGNMENT_NONE;
+            if (rho_look_has_in_view(look, i) && (track->plot >= 0 || had)) {
+                track->plot = (int16_t)(track->plot < 0 ? -1 : track->plot + (int32_t)first);
+                look->in_view[i / 32] &= ~(1u << i % 32);
+            }
+        }
         if (first == 0) {
-            memcpy(fates, step->look.fates, sizeof fates);
+            memcpy(fates, look->fates, sizeof fates);
+        }
+        for (uint32_t i = 0; i < look->num_gated && first > 0; i++) {
+            step->num_beyond_claimed += look->fates[i] == RHO_FATE_CLAIMED ? 1u : 0u;
+            step->num_beyond_invalid += look->fates[i] == RHO_FATE_INVALID ? 1u : 0u;
         }
     }
-    memcpy(step->look.fates, fates, sizeof fates);
-    memcpy(step->look.in_view, whole.in_view, sizeof whole.in_view);
-    step->look.part_share = whole.part_share;
-    step->look.part_per_m2 = whole.part_per_m2;
-    step->look.scan = whole.scan;
-    step->look.first_row = whole.first_row;
-    step->look.num_gated = whole.num_gated;
-}
-
-/* Each sensor's bearings; afterwards the look is again the whole frame, of no sensor. */
-static void take_bearings(struct step *step)
-{
-    const uint32_t num_gated = step->look.num_gated;
-    uint8_t *fates = step->look.fates;
-    struct rho_sensor sensor;
-    uint32_t first = 0;
-    for (uint32_t i = 0; i < step->frame->num_scans; i++) {
-        rho_step_open_bearings(step, &step->frame->scans[i], first, &sensor);
-        rho_step_claim(step->tracker, &step->look, &step->work);
-        rho_step_update(step->tracker, &step->look, &step->work);
-        first = rho_count(first, step->frame->scans[i].num_bearings);
-        step->look.num_gated = num_gated;
-        step->look.fates = fates;
-    }
-    step->look.bearings = 0;
-    step->look.sensor = 0;
+    memcpy(look->fates, fates, sizeof fates);
+    memcpy(look->in_view, whole.in_view, sizeof whole.in_view);
+    look->part_share = whole.part_share;
+    look->part_per_m2 = whole.part_per_m2;
+    look->scan = whole.scan;
+    look->first_row = whole.first_row;
+    look->num_gated = whole.num_gated;
 }
 
 void rho_step_take_looks(struct step *step)
 {
     struct rho_look *look = &step->look;
     if (step->frame) {
-        take_bearings(step);
+        const uint32_t num_gated = look->num_gated;
+        uint8_t *fates = look->fates;
+        struct rho_sensor sensor;
+        uint32_t first = 0;
+        for (uint32_t i = 0; i < step->frame->num_scans; i++) {
+            const struct rho_bearing_scan *scan = &step->frame->scans[i];
+            rho_step_open_bearings(step->tracker, step->passive, look, scan, first, &sensor);
+            rho_step_claim(step->tracker, look, &step->work);
+            rho_step_update(step->tracker, look, &step->work);
+            first = rho_count(first, scan->num_bearings);
+            look->num_gated = num_gated;
+            look->fates = fates;
+        }
+        /* the look is again the whole frame, of no sensor */
+        look->bearings = 0;
+        look->sensor = 0;
         return;
     }
     if (rho_notch_sensor_has_notch(look->sensor)) {
         rho_notch_mark_tracks(step->tracker, look);
     }
-    if (rho_bodies_are_used(step->tracker)) {
-        rho_bodies_group(step);
-    }
+    rho_targets_group_plots(step);
     if (RHO_CLAIMS_BEYOND && look->num_inputs > RHO_MAX_PLOTS) {
         take_parts(step);
     } else {

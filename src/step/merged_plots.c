@@ -27,18 +27,9 @@
  * until the second track is tentative.
  */
 #include "phases.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
-
-/* Variance of a place anywhere between two targets, over the square of half their distance. */
-#define BETWEEN (1.0f / 3.0f)
-/* Least hits of tracks that share a plot: a newer track may be a second one of the same target. */
-#define HITS_MIN 10
-/*
- * ln of the probability that a pair stays merged for another scan: some 50 scans until the second
- * track is tentative.
- */
-#define GAIN_MAX_NAT (-0.1f)
 
 struct track_pair {
     struct rho_track *first, *second; /* the plot is assigned to the first track */
@@ -49,24 +40,23 @@ struct track_pair {
     float near_m2[2]; /* variances of unresolved distances, along and across the line of sight */
 };
 
-static int was_confirmed_and_is_not_yet_updated(const struct rho_track *track)
+static int may_share(const struct rho_track *track)
 {
     /* tentative tracks that were confirmed share, too: they may have missed merged plots alone */
-    return track->was_confirmed && track->hits >= HITS_MIN && track->plot < 0;
+    return track->was_confirmed && track->hits >= SHARING_HITS && track->plot < 0;
 }
 
 /* Rotates an offset in x and y to the axes along the line of sight and across it. */
-static void rotate_to_line_of_sight(const struct rho_measurement *seen, const float at_m[2],
-                                    float turned_m[2])
+static void turn_to_sight_line(const struct rho_measurement *seen, const float at_m[2],
+                               float turned_m[2])
 {
     turned_m[0] = seen->cos_azimuth * at_m[0] + seen->sin_azimuth * at_m[1];
     turned_m[1] = seen->cos_azimuth * at_m[1] - seen->sin_azimuth * at_m[0];
 }
 
 /* Variances of a track's place on the ground, along the line of sight and across it. */
-static void rotate_track_variances_to_line_of_sight(const struct rho_measurement *seen,
-                                                    const struct rho_track *track,
-                                                    float turned_m2[2])
+static void turn_variances(const struct rho_measurement *seen, const struct rho_track *track,
+                           float turned_m2[2])
 {
     const float *covariance = track->kalman.covariance;
     const float c = seen->cos_azimuth, s = seen->sin_azimuth;
@@ -77,8 +67,8 @@ static void rotate_track_variances_to_line_of_sight(const struct rho_measurement
 }
 
 /* Fills the pair of a track without a plot and the old track with its likeliest plot. 0: none. */
-static int find_track_to_share_with(struct rho_tracker *tracker, const struct rho_look *look,
-                                    unsigned row, struct track_pair *pair)
+static int find_pair(struct rho_tracker *tracker, const struct rho_look *look, unsigned row,
+                     struct track_pair *pair)
 {
     const struct rho_assignment *assignment = &tracker->assignment;
     int32_t least = 0;
@@ -86,8 +76,7 @@ static int find_track_to_share_with(struct rho_tracker *tracker, const struct rh
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         const struct rho_assignment_pair *offer = &assignment->pairs[row][i];
         const int owner = assignment->column_row[offer->column];
-        if (offer->cost < least && owner >= 0 &&
-            was_confirmed_and_is_not_yet_updated(&tracker->tracks[owner])) {
+        if (offer->cost < least && owner >= 0 && may_share(&tracker->tracks[owner])) {
             least = offer->cost;
             pair->plot = offer->column;
             pair->first = &tracker->tracks[owner];
@@ -101,14 +90,13 @@ static int find_track_to_share_with(struct rho_tracker *tracker, const struct rh
     rho_measurement_from_plot(&look->scan->plots[pair->plot], 0, look->sensor, &pair->seen);
     const float *from = pair->first->kalman.state, *to = pair->second->kalman.state;
     const float half_m[2] = {0.5f * (to[0] - from[0]), 0.5f * (to[1] - from[1])};
-    rotate_to_line_of_sight(&pair->seen, half_m, pair->half_m);
+    turn_to_sight_line(&pair->seen, half_m, pair->half_m);
     rho_cell_variances_at(look, &look->scan->plots[pair->plot], &pair->seen, pair->near_m2);
     return 1;
 }
 
 /* Range rate of the second track less that of the first; 0 where the scan measures none. */
-static float predicted_range_rate_of_second_less_first_mps(const struct rho_look *look,
-                                                           const struct track_pair *pair)
+static float rate_difference_mps(const struct rho_look *look, const struct track_pair *pair)
 {
     const int use_z = (look->scan->measures & RHO_MEASURES_Z) != 0;
     float row[6], first_mps, second_mps;
@@ -126,40 +114,26 @@ static float predicted_range_rate_of_second_less_first_mps(const struct rho_look
  * Plot minus the track's predicted position at the plot's own time, along the line of sight and
  * across it. The distance of the two targets is taken as constant meanwhile.
  */
-static void plot_offset_from_track(const struct rho_look *look, const struct track_pair *pair,
-                                   const struct rho_track *track, float from_m[2])
+static void offset_from_track(const struct rho_look *look, const struct track_pair *pair,
+                              const struct rho_track *track, float from_m[2])
 {
     const struct rho_plot *plot = &look->scan->plots[pair->plot];
     const float after_s = (float)plot->offset_us * 1e-6f, *state = track->kalman.state;
     const float place_m[2] = {plot->x_m - state[RHO_X] - after_s * state[RHO_VX],
                               plot->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
-    rotate_to_line_of_sight(&pair->seen, place_m, from_m);
+    turn_to_sight_line(&pair->seen, place_m, from_m);
 }
 
 /* Factor of one axis in the probability that two targets are unresolved. */
-static float unresolved_probability_on_axis(float unresolved_variance, float apart, float variance)
+static float unresolved_on_axis(float unresolved_variance, float apart, float variance)
 {
     const float spread2 = unresolved_variance + variance;
     return rho_sqrt(unresolved_variance / spread2) * rho_exp(-0.5f * apart * apart / spread2);
 }
 
-static float unresolved_probability_by_range_rate(const struct rho_look *look,
-                                                  const struct track_pair *pair)
-{
-    const float near_mps2 = rho_cell_rate_variance(look->sensor);
-    const float first_mps = rho_track_sigma_mps(pair->first),
-                second_mps = rho_track_sigma_mps(pair->second);
-    return near_mps2 > 0.0f
-               ? unresolved_probability_on_axis(
-                     near_mps2, predicted_range_rate_of_second_less_first_mps(look, pair),
-                     first_mps * first_mps + second_mps * second_mps)
-               : 1.0f;
-}
-
 /* Updates the learned resolution cell by a pair; is_one: probability that its plot is merged. */
-static void learn_resolution_cell_from_pair(const struct rho_look *look,
-                                            const struct track_pair *pair, const float both_m2[2],
-                                            float is_one)
+static void learn_cell(const struct rho_look *look, const struct track_pair *pair,
+                       const float both_m2[2], float is_one)
 {
     struct apart apart = {.is_one = is_one};
     for (int axis = 0; axis < 2; axis++) {
@@ -177,43 +151,48 @@ static void learn_resolution_cell_from_pair(const struct rho_look *look,
  * 1 where a merged plot is likelier than a miss of the second target. *gain_nat: the plot's gain
  * for the second track. The pair also updates the learned resolution cell.
  */
-static int test_merged_plot_and_learn_cell(const struct rho_look *look,
-                                           const struct track_pair *pair, float *gain_nat)
+static int is_merged(const struct rho_look *look, const struct track_pair *pair, float *gain_nat)
 {
     float from_m[2], first_m2[2], second_m2[2], both_m2[2];
-    float merged = unresolved_probability_by_range_rate(look, pair), ratio_nat = 0.0f;
-    plot_offset_from_track(look, pair, pair->first, from_m);
-    rotate_track_variances_to_line_of_sight(&pair->seen, pair->first, first_m2);
-    rotate_track_variances_to_line_of_sight(&pair->seen, pair->second, second_m2);
+    float merged = 1.0f, ratio_nat = 0.0f;
+    const float near_mps2 = rho_cell_rate_variance(look->sensor);
+    if (near_mps2 > 0.0f) {
+        const float first_mps = rho_track_sigma_mps(pair->first),
+                    second_mps = rho_track_sigma_mps(pair->second);
+        merged = unresolved_on_axis(near_mps2, rate_difference_mps(look, pair),
+                                    first_mps * first_mps + second_mps * second_mps);
+    }
+    offset_from_track(look, pair, pair->first, from_m);
+    turn_variances(&pair->seen, pair->first, first_m2);
+    turn_variances(&pair->seen, pair->second, second_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float half_m = pair->half_m[axis];
         both_m2[axis] = first_m2[axis] + second_m2[axis];
-        merged *= unresolved_probability_on_axis(pair->near_m2[axis], 2.0f * half_m, both_m2[axis]);
+        merged *= unresolved_on_axis(pair->near_m2[axis], 2.0f * half_m, both_m2[axis]);
         /* half the squared distance from plot to first less that from plot to middle, over noise */
         ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
     }
     const float log_miss = rho_look_detection(look, pair->second).log_miss;
-    *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, GAIN_MAX_NAT));
+    *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, STAY_MERGED_NAT));
     const float one = merged * rho_exp(ratio_nat), two = (1.0f - merged) * rho_exp(log_miss);
-    learn_resolution_cell_from_pair(look, pair, both_m2, one / (one + two));
+    learn_cell(look, pair, both_m2, one / (one + two));
     return one > two;
 }
 
 /* Derives a track's own plot from a merged plot and the other track of the pair (top of file). */
-static struct rho_track_plot own_plot_from_merged(const struct rho_look *look,
-                                                  const struct track_pair *pair,
-                                                  const struct rho_track *other)
+static struct rho_track_plot own_part(const struct rho_look *look, const struct track_pair *pair,
+                                      const struct rho_track *other)
 {
     struct rho_track_plot part = rho_score_track_plot(look, pair->plot);
     const float c = pair->seen.cos_azimuth, s = pair->seen.sin_azimuth;
-    const float half_mps = 0.5f * predicted_range_rate_of_second_less_first_mps(look, pair);
+    const float half_mps = 0.5f * rate_difference_mps(look, pair);
     float from_m[2], other_m2[2], farther_m[2], wider[2];
-    plot_offset_from_track(look, pair, other, from_m);
-    rotate_track_variances_to_line_of_sight(&pair->seen, other, other_m2);
+    offset_from_track(look, pair, other, from_m);
+    turn_variances(&pair->seen, other, other_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float noise_m2 =
-            pair->seen.variance_m2[axis] + BETWEEN * pair->half_m[axis] * pair->half_m[axis];
+            pair->seen.variance_m2[axis] + 1.0f / 3.0f * pair->half_m[axis] * pair->half_m[axis];
         const float n = pair->near_m2[axis], p = other_m2[axis], r = 4.0f * noise_m2;
         const float all_m2 = r + n + 4.0f * p;
         farther_m[axis] = (2.0f * (n + 2.0f * p) / all_m2 - 1.0f) * from_m[axis];
@@ -229,8 +208,8 @@ static struct rho_track_plot own_plot_from_merged(const struct rho_look *look,
     return part;
 }
 
-static int update_track_by_part_of_merged_plot(const struct rho_look *look, struct rho_track *track,
-                                               const struct rho_track_plot *part, float gain_nat)
+static int update_by_part(const struct rho_look *look, struct rho_track *track,
+                          const struct rho_track_plot *part, float gain_nat)
 {
     if (rho_track_update_by_plot(track, part, &look->model, rho_score_to_mnat(gain_nat)) !=
         RHO_OK) {
@@ -241,33 +220,16 @@ static int update_track_by_part_of_merged_plot(const struct rho_look *look, stru
     return 1;
 }
 
-static void update_pair_by_merged_plot(const struct rho_look *look, const struct track_pair *pair,
-                                       float gain_nat)
-{
-    /* the older track gets the gain of an unmerged plot, the newer one that of sharing */
-    const int second_is_older = pair->second < pair->first;
-    const struct rho_track_plot of_first = own_plot_from_merged(look, pair, pair->second),
-                                of_second = own_plot_from_merged(look, pair, pair->first);
-    /* where the second track refuses, the first goes on to take its plot alone */
-    if (update_track_by_part_of_merged_plot(look, pair->second, &of_second,
-                                            second_is_older ? pair->gain_nat : gain_nat)) {
-        look->fates[pair->plot] = RHO_FATE_CLAIMED;
-        (void)!update_track_by_part_of_merged_plot(look, pair->first, &of_first,
-                                                   second_is_older ? gain_nat : pair->gain_nat);
-    }
-}
-
 /* Teaches the resolution cell by tracks with a plot each: resolved at the plots' distance. */
-static void learn_cell_from_resolved_pairs(struct rho_tracker *tracker, const struct rho_look *look,
-                                           unsigned row)
+static void learn_resolved_pairs(struct rho_tracker *tracker, const struct rho_look *look,
+                                 unsigned row)
 {
     const struct rho_assignment *assignment = &tracker->assignment;
     const int own = rho_assignment_column(assignment, row);
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         const int column = assignment->pairs[row][i].column;
         const int other = assignment->column_row[column];
-        if (column == own || other <= (int)row ||
-            !was_confirmed_and_is_not_yet_updated(&tracker->tracks[other])) {
+        if (column == own || other <= (int)row || !may_share(&tracker->tracks[other])) {
             continue;
         }
         const struct rho_plot *from = &look->scan->plots[own], *to = &look->scan->plots[column];
@@ -276,9 +238,9 @@ static void learn_cell_from_resolved_pairs(struct rho_tracker *tracker, const st
         struct track_pair pair = {.first = &tracker->tracks[row],
                                   .second = &tracker->tracks[other]};
         rho_measurement_from_plot(from, 0, look->sensor, &pair.seen);
-        rotate_to_line_of_sight(&pair.seen, half_m, pair.half_m);
+        turn_to_sight_line(&pair.seen, half_m, pair.half_m);
         rho_cell_variances_at(look, from, &pair.seen, pair.near_m2);
-        learn_resolution_cell_from_pair(look, &pair, none_m2, 0.0f);
+        learn_cell(look, &pair, none_m2, 0.0f);
     }
 }
 
@@ -293,14 +255,23 @@ void rho_step_share_merged(struct rho_tracker *tracker, const struct rho_look *l
         const int has_own = rho_assignment_column(&tracker->assignment, row) != RHO_ASSIGNMENT_NONE;
         /* the track needs an offer besides the plot that it was assigned */
         if (tracker->assignment.num_pairs[row] <= (unsigned)has_own ||
-            !was_confirmed_and_is_not_yet_updated(&tracker->tracks[row])) {
+            !may_share(&tracker->tracks[row])) {
             continue;
         }
         if (has_own) {
-            learn_cell_from_resolved_pairs(tracker, look, row);
-        } else if (find_track_to_share_with(tracker, look, row, &pair) &&
-                   test_merged_plot_and_learn_cell(look, &pair, &gain_nat)) {
-            update_pair_by_merged_plot(look, &pair, gain_nat);
+            learn_resolved_pairs(tracker, look, row);
+        } else if (find_pair(tracker, look, row, &pair) && is_merged(look, &pair, &gain_nat)) {
+            /* the older track gets the gain of an unmerged plot, the newer one that of sharing */
+            const int second_is_older = pair.second < pair.first;
+            const struct rho_track_plot of_first = own_part(look, &pair, pair.second),
+                                        of_second = own_part(look, &pair, pair.first);
+            /* where the second track refuses, the first goes on to take its plot alone */
+            if (update_by_part(look, pair.second, &of_second,
+                               second_is_older ? pair.gain_nat : gain_nat)) {
+                look->fates[pair.plot] = RHO_FATE_CLAIMED;
+                (void)!update_by_part(look, pair.first, &of_first,
+                                      second_is_older ? gain_nat : pair.gain_nat);
+            }
         }
     }
 }

@@ -17,9 +17,9 @@ static unsigned row_of_track(const struct rho_tracker *tracker, uint32_t track_i
 }
 
 /* Finds a track by its identity, and fills *step to continue the newest step. */
-static enum rho_status find_track_and_resume_step(struct rho_tracker *tracker, uint32_t track_id,
-                                                  struct rho_report *report, struct step *step,
-                                                  struct rho_track **track)
+static enum rho_status resume_at_track(struct rho_tracker *tracker, uint32_t track_id,
+                                       struct rho_report *report, struct step *step,
+                                       struct rho_track **track)
 {
     if (!tracker || !report) {
         return RHO_ERROR_NULL;
@@ -33,21 +33,6 @@ static enum rho_status find_track_and_resume_step(struct rho_tracker *tracker, u
     return row < tracker->num_tracks ? RHO_OK : RHO_ERROR_VALUE;
 }
 
-/* ---- start ----------------------------------------------------------------------------------- */
-
-/* Identity of the sensor with the newest scan; 0: none was heard. */
-static int32_t last_heard_sensor_id(const struct rho_tracker *tracker)
-{
-    const struct rho_tracker_sensor *newest = 0;
-    for (unsigned i = 0; i < tracker->num_rows; i++) {
-        const struct rho_tracker_sensor *row = &tracker->sensors[i];
-        if (row->pace.is_heard && (!newest || row->pace.time_us > newest->pace.time_us)) {
-            newest = row;
-        }
-    }
-    return newest ? newest->sensor.sensor_id : 0;
-}
-
 enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
                                      const struct rho_operator_start *start,
                                      struct rho_report *report)
@@ -55,11 +40,19 @@ enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
     if (!tracker || !start || !report) {
         return RHO_ERROR_NULL;
     }
+    /* a start is of the sensor with the newest scan; 0: none was heard */
+    const struct rho_tracker_sensor *newest = 0;
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_sensor *row = &tracker->sensors[i];
+        if (row->pace.is_heard && (!newest || row->pace.time_us > newest->pace.time_us)) {
+            newest = row;
+        }
+    }
     const int has_velocity = !rho_is_within(start->sigma_mps, 0.0f, 0.0f);
     const struct rho_track_plot seen = {
         .time_us = tracker->time_us,
         .measures = has_velocity ? RHO_MEASURES_VELOCITY : 0,
-        .sensor_id = last_heard_sensor_id(tracker),
+        .sensor_id = newest ? newest->sensor.sensor_id : 0,
         .plot = {.x_m = start->x_m,
                  .y_m = start->y_m,
                  .vx_mps = start->vx_mps,
@@ -73,24 +66,16 @@ enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
                                    tracker->confirm_mnat > 0 ? tracker->confirm_mnat : 0, report);
 }
 
-/* ---- end and identity ------------------------------------------------------------------------ */
-
-static int has_room_for_ended(const struct rho_report *report)
-{
-    return report->num_ended < RHO_MAX_TRACKS;
-}
-
 enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t track_id,
                                        struct rho_report *report)
 {
     struct step step;
     struct rho_track *track;
-    const enum rho_status status =
-        find_track_and_resume_step(tracker, track_id, report, &step, &track);
+    const enum rho_status status = resume_at_track(tracker, track_id, report, &step, &track);
     if (status != RHO_OK) {
         return status;
     }
-    if (!has_room_for_ended(report)) {
+    if (report->num_ended >= RHO_MAX_TRACKS) {
         return RHO_ERROR_CAPACITY;
     }
     rho_life_end(&step, track);
@@ -103,7 +88,7 @@ enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t tra
     return RHO_OK;
 }
 
-static void swap_tracks_and_bodies(struct rho_tracker *tracker, unsigned row, unsigned other)
+static void swap_tracks(struct rho_tracker *tracker, unsigned row, unsigned other)
 {
     const struct rho_track track = tracker->tracks[row];
     tracker->tracks[row] = tracker->tracks[other];
@@ -115,47 +100,12 @@ static void swap_tracks_and_bodies(struct rho_tracker *tracker, unsigned row, un
     }
 }
 
-/*
- * Moves a track to its place in the order of identities. The assignment's rows from there on no
- * longer fit the tracks, and are dropped.
- */
-static void move_track_to_id_order(struct rho_tracker *tracker, unsigned row)
-{
-    const uint32_t track_id = tracker->tracks[row].track_id;
-    unsigned to = row;
-    for (; to > 0 && tracker->tracks[to - 1].track_id > track_id; to--) {
-        swap_tracks_and_bodies(tracker, to, to - 1u);
-    }
-    for (; to + 1u < tracker->num_tracks && tracker->tracks[to + 1].track_id < track_id; to++) {
-        swap_tracks_and_bodies(tracker, to, to + 1u);
-    }
-    if (RHO_KEEPS_OFFERS && to != row) {
-        const unsigned first = to < row ? to : row;
-        if (tracker->assignment.num_rows > first) {
-            tracker->assignment.num_rows = (uint16_t)first;
-        }
-    }
-}
-
-/* Takes an identity off the report's list of ended tracks: another track continues it. */
-static void remove_from_ended_list(struct rho_report *report, uint32_t track_id)
-{
-    uint16_t kept = 0;
-    for (unsigned i = 0; i < report->num_ended; i++) {
-        if (report->ended[i] != track_id) {
-            report->ended[kept++] = report->ended[i];
-        }
-    }
-    report->num_ended = kept;
-}
-
 enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t track_id,
                                            uint32_t new_id, struct rho_report *report)
 {
     struct step step;
     struct rho_track *track;
-    const enum rho_status status =
-        find_track_and_resume_step(tracker, track_id, report, &step, &track);
+    const enum rho_status status = resume_at_track(tracker, track_id, report, &step, &track);
     if (status != RHO_OK) {
         return status;
     }
@@ -163,10 +113,17 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         row_of_track(tracker, new_id) < tracker->num_tracks) {
         return RHO_ERROR_VALUE;
     }
-    if (!has_room_for_ended(report)) {
+    if (report->num_ended >= RHO_MAX_TRACKS) {
         return RHO_ERROR_CAPACITY;
     }
-    remove_from_ended_list(report, new_id);
+    /* the track continues one that may have ended in this step: that end is no longer reported */
+    uint16_t kept = 0;
+    for (unsigned i = 0; i < report->num_ended; i++) {
+        if (report->ended[i] != new_id) {
+            report->ended[kept++] = report->ended[i];
+        }
+    }
+    report->num_ended = kept;
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track_id;
     }
@@ -179,21 +136,32 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         struct rho_track *other = &tracker->tracks[i];
         other->older_id = other->older_id == track_id ? new_id : other->older_id;
     }
-    move_track_to_id_order(tracker, (unsigned)(track - tracker->tracks));
+    /* to its place in the order of identities; the assignment's rows from there on are dropped */
+    const unsigned row = (unsigned)(track - tracker->tracks);
+    unsigned to = row;
+    for (; to > 0 && tracker->tracks[to - 1].track_id > new_id; to--) {
+        swap_tracks(tracker, to, to - 1u);
+    }
+    for (; to + 1u < tracker->num_tracks && tracker->tracks[to + 1].track_id < new_id; to++) {
+        swap_tracks(tracker, to, to + 1u);
+    }
+    if (RHO_KEEPS_OFFERS && to != row) {
+        const unsigned first = to < row ? to : row;
+        if (tracker->assignment.num_rows > first) {
+            tracker->assignment.num_rows = (uint16_t)first;
+        }
+    }
     tracker->next_track_id = tracker->next_track_id > new_id ? tracker->next_track_id : new_id + 1u;
     rho_step_report_tracks(&step);
     return RHO_OK;
 }
-
-/* ---- freeze ---------------------------------------------------------------------------------- */
 
 enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t track_id,
                                          int is_frozen, struct rho_report *report)
 {
     struct step step;
     struct rho_track *track;
-    const enum rho_status status =
-        find_track_and_resume_step(tracker, track_id, report, &step, &track);
+    const enum rho_status status = resume_at_track(tracker, track_id, report, &step, &track);
     if (status != RHO_OK) {
         return status;
     }

@@ -10,15 +10,9 @@
 #include <string.h>
 
 #include "batch_frame.h"
-#include "phases.h"
-#include "rhotrack/detail/approx.h"
+#include "policy.h"
 
 #define STARTS_MAGIC 0x50535431u
-
-/* Standard deviations within which a line's plots are, from the motion fitted to its voters. */
-#define GATE_SIGMAS 3.0f
-
-/* ---- configuration --------------------------------------------------------------------------- */
 
 void rho_paper_starts_config_default(struct rho_paper_starts_config *config,
                                      enum rho_hough_method method)
@@ -27,13 +21,6 @@ void rho_paper_starts_config_default(struct rho_paper_starts_config *config,
         *config = (struct rho_paper_starts_config){.scans = 4};
         rho_hough_config_default(&config->hough, method);
     }
-}
-
-static int is_usable_config(const struct rho_paper_starts_config *config)
-{
-    return config->scans >= 3 && config->scans <= RHO_MAX_SCANS &&
-           (config->scans_min == 0 ||
-            (config->scans_min >= 2 && config->scans_min <= config->scans));
 }
 
 enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t size,
@@ -46,7 +33,8 @@ enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t si
         return RHO_ERROR_SIZE;
     }
     const struct rho_paper_starts_config kept = *config; /* config may point into *starts */
-    if (!is_usable_config(&kept)) {
+    if (kept.scans < 3 || kept.scans > RHO_MAX_SCANS ||
+        (kept.scans_min != 0 && (kept.scans_min < 2 || kept.scans_min > kept.scans))) {
         return RHO_ERROR_CONFIG;
     }
     starts->magic = 0;
@@ -62,97 +50,42 @@ enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t si
     return rho_window_init(&starts->window, sizeof starts->window, kept.scans, 0, 0.0f);
 }
 
-/* ---- what is kept ---------------------------------------------------------------------------- */
-
-/* The state of the tracker's last step, made from its report, as functions of a step take it. */
-static struct step step_from_report(struct rho_tracker *tracker, struct rho_report *report)
+/* Number of the inputs of a step that have a place in the report's fates. */
+static uint32_t num_with_fates(const struct rho_report *report)
 {
-    return (struct step){.tracker = tracker,
-                         .report = report,
-                         .look = {.tracker = tracker,
-                                  .fates = report->fates,
-                                  .time_us = report->time_us,
-                                  .num_inputs = report->num_plots,
-                                  .num_gated = report->num_plots < RHO_MAX_PLOTS ? report->num_plots
-                                                                                 : RHO_MAX_PLOTS}};
+    return report->num_plots < RHO_MAX_PLOTS ? report->num_plots : RHO_MAX_PLOTS;
 }
 
-static int has_stepped(const struct rho_tracker *tracker)
+/* Unclaimed inputs, NO_ROOM as the step had no initiator, become HELD. Returns their number. */
+static uint32_t hold_unclaimed(uint8_t *fates, uint32_t num)
 {
-    return rho_tracker_is_ready(tracker) && tracker->has_time;
-}
-
-/* Moves inputs from the counters of NO_ROOM to those of HELD: the step had no initiator. */
-static void recount_no_room_as_held(const struct step *step, uint32_t held)
-{
-    uint32_t *fates = step->tracker->counters.fates;
-    step->report->fates_total[RHO_FATE_NO_ROOM] -= held;
-    step->report->fates_total[RHO_FATE_HELD] += held;
-    fates[RHO_FATE_HELD] = rho_count(fates[RHO_FATE_HELD], held);
-    fates[RHO_FATE_NO_ROOM] -= held < fates[RHO_FATE_NO_ROOM] ? held : fates[RHO_FATE_NO_ROOM];
-}
-
-/* Unclaimed inputs become HELD, so that the window or the batch takes them. */
-static void mark_no_room_as_held(uint8_t *fates, uint32_t num)
-{
+    uint32_t held = 0;
     for (uint32_t i = 0; i < num; i++) {
+        held += fates[i] == RHO_FATE_NO_ROOM;
         fates[i] = fates[i] == RHO_FATE_NO_ROOM ? (uint8_t)RHO_FATE_HELD : fates[i];
     }
+    return held;
 }
 
-static uint32_t count_inputs_with_fate(const uint8_t *fates, uint32_t num, enum rho_fate fate)
+/* Moves held inputs, but for those without room again, from the counters of NO_ROOM to HELD's. */
+static void recount_held(struct rho_tracker *tracker, struct rho_report *report,
+                         const uint8_t *fates, uint32_t num, uint32_t held)
 {
-    uint32_t count = 0;
+    uint32_t *counted = tracker->counters.fates;
     for (uint32_t i = 0; i < num; i++) {
-        count += fates[i] == fate;
+        held -= fates[i] == RHO_FATE_NO_ROOM;
     }
-    return count;
-}
-
-/* ---- plots ----------------------------------------------------------------------------------- */
-
-static enum rho_status push_plots_into_window(struct rho_paper_starts *starts,
-                                              const struct step *step, const struct rho_scan *scan)
-{
-    const struct rho_sensor *sensor = rho_sensors_find(step->tracker, scan->sensor_id);
-    struct rho_scan held = *scan;
-    uint8_t *fates = step->report->fates;
-    held.num_plots = held.num_plots < step->look.num_gated ? held.num_plots : step->look.num_gated;
-    const uint32_t before = count_inputs_with_fate(fates, held.num_plots, RHO_FATE_NO_ROOM);
-    mark_no_room_as_held(fates, held.num_plots);
-    enum rho_status status = rho_window_push(&starts->window, &held, sensor, fates,
-                                             &step->tracker->counters.plots_clutter);
-    recount_no_room_as_held(
-        step, before - count_inputs_with_fate(fates, held.num_plots, RHO_FATE_NO_ROOM));
-    return status;
+    report->fates_total[RHO_FATE_NO_ROOM] -= held;
+    report->fates_total[RHO_FATE_HELD] += held;
+    counted[RHO_FATE_HELD] = rho_count(counted[RHO_FATE_HELD], held);
+    counted[RHO_FATE_NO_ROOM] -=
+        held < counted[RHO_FATE_NO_ROOM] ? held : counted[RHO_FATE_NO_ROOM];
 }
 
 struct rho_hough_points rho_paper_starts_points(const struct rho_paper_starts *starts)
 {
     return (struct rho_hough_points){
         .at = {starts->x_m, starts->y_m, starts->num_scans, starts->scan_end}, .t_s = starts->t_s};
-}
-
-/* Copies the window into the transform's arrays, without plots that have started tracks. */
-static struct rho_hough_points gather_unused_points(struct rho_paper_starts *starts)
-{
-    struct rho_window *window = &starts->window;
-    const int64_t newest_us = rho_window_scan_at(window, window->num_scans - 1u)->time_us;
-    uint32_t num = 0;
-    for (unsigned m = 0; m < window->num_scans; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
-        const float scan_s = -rho_seconds_between(scan->time_us, newest_us);
-        for (unsigned i = 0; i < scan->num_plots; i++) {
-            if (!(scan->marks[i] & RHO_WINDOW_INITIATED)) {
-                starts->x_m[num] = scan->plots[i].x_m;
-                starts->y_m[num] = scan->plots[i].y_m;
-                starts->t_s[num++] = scan_s + scan->plots[i].offset_s;
-            }
-        }
-        starts->scan_end[m] = num;
-    }
-    starts->num_scans = window->num_scans;
-    return rho_paper_starts_points(starts);
 }
 
 /* Finds in each scan the plot nearest to a line's fitted motion; returns the number of plots. */
@@ -176,8 +109,8 @@ static unsigned find_plots_of_line(struct rho_paper_starts *starts,
             .vy_mps = line->vy_mps,
             .variance_m2 = cell_m * cell_m,
             .sigma_factor = 1.0f,
-            .gate_chi2 = GATE_SIGMAS * GATE_SIGMAS,
-            .gate_radius_m = GATE_SIGMAS * (cell_m + scan->sigma_max_m),
+            .gate_chi2 = LINE_SIGMAS * LINE_SIGMAS,
+            .gate_radius_m = LINE_SIGMAS * (cell_m + scan->sigma_max_m),
             .skip_flags = RHO_WINDOW_INITIATED,
         };
         const int nearest = rho_window_nearest_isotropic(scan, &query, &work);
@@ -195,52 +128,43 @@ static int is_in_newest_scan(unsigned mask, unsigned num_scans)
     return num_scans > 0 && (mask >> (num_scans - 1u) & 1u) != 0;
 }
 
-/* Marks a candidate's plots in the window: they start no other track. */
-static void mark_plots_used(struct rho_paper_starts *starts, const struct rho_candidate *candidate,
-                            struct rho_tracker_counters *counters)
-{
-    for (unsigned m = 0; m < starts->window.num_scans; m++) {
-        if ((unsigned)candidate->mask >> m & 1u) {
-            struct rho_window_scan *scan = rho_window_scan_at(&starts->window, m);
-            scan->marks[candidate->plot[m]] |= RHO_WINDOW_INITIATED;
-            scan->num_unused--;
-        }
-    }
-    counters->plots_initiated = rho_count(counters->plots_initiated, candidate->hits);
-}
-
 /* Identity of the track that started last: the tracker's list is in the order of starts. */
 static uint32_t newest_track_id(const struct rho_tracker *tracker)
 {
     return tracker->tracks[tracker->num_tracks - 1u].track_id;
 }
 
-static void start_track_from_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
-                                  struct rho_paper_line *peak, unsigned scans_min,
-                                  struct rho_report *report)
+static void start_from_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
+                            struct rho_paper_line *peak, unsigned scans_min,
+                            struct rho_report *report)
 {
     const struct rho_hough_track *line = &peak->line;
+    struct rho_window *window = &starts->window;
+    struct rho_tracker_counters *counters = &tracker->counters;
     struct rho_candidate candidate;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     peak->track_id = 0;
     if (!line->has_velocity || find_plots_of_line(starts, line, &candidate) < scans_min ||
-        !is_in_newest_scan(candidate.mask, starts->window.num_scans)) {
+        !is_in_newest_scan(candidate.mask, window->num_scans)) {
         starts->work.short_lines = rho_count(starts->work.short_lines, 1);
         return;
     }
-    const unsigned num = rho_step_candidate_plots(&starts->window, &candidate, plots);
-    if (rho_tracker_start_track(tracker, plots, num, 0, report) == RHO_OK) {
-        peak->track_id = newest_track_id(tracker);
-        mark_plots_used(starts, &candidate, &tracker->counters);
-        starts->work.started = rho_count(starts->work.started, 1);
-    } else {
+    const unsigned num = rho_step_candidate_plots(window, &candidate, plots);
+    if (rho_tracker_start_track(tracker, plots, num, 0, report) != RHO_OK) {
         starts->work.refused = rho_count(starts->work.refused, 1);
+        return;
     }
-}
-
-static unsigned num_scans_needed_or_four_fifths(unsigned scans_min, unsigned scans)
-{
-    return scans_min > 0 ? scans_min : (4u * scans + 4u) / 5u;
+    peak->track_id = newest_track_id(tracker);
+    starts->work.started = rho_count(starts->work.started, 1);
+    /* its plots start no other track */
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        if ((unsigned)candidate.mask >> m & 1u) {
+            struct rho_window_scan *scan = rho_window_scan_at(window, m);
+            scan->marks[candidate.plot[m]] |= RHO_WINDOW_INITIATED;
+            scan->num_unused--;
+        }
+    }
+    counters->plots_initiated = rho_count(counters->plots_initiated, candidate.hits);
 }
 
 enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rho_tracker *tracker,
@@ -249,23 +173,47 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
     if (!starts || !tracker || !scan || !report) {
         return RHO_ERROR_NULL;
     }
-    if (starts->magic != STARTS_MAGIC || !has_stepped(tracker)) {
+    if (starts->magic != STARTS_MAGIC || !rho_tracker_is_ready(tracker) || !tracker->has_time) {
         return RHO_ERROR_STATE;
     }
-    struct step step = step_from_report(tracker, report);
     memset(&starts->work, 0, sizeof starts->work);
     starts->has_searched = 0;
     if (report->time_us != tracker->time_us ||
         !rho_window_accepts(&starts->window, scan->time_us)) {
         return RHO_OK;
     }
-    enum rho_status status = push_plots_into_window(starts, &step, scan);
+    const struct rho_paper_starts_config *config = &starts->config;
     const unsigned scans_min =
-        num_scans_needed_or_four_fifths(starts->config.scans_min, starts->config.scans);
+        config->scans_min > 0 ? config->scans_min : (4u * config->scans + 4u) / 5u;
+    const uint32_t most = num_with_fates(report);
+    struct rho_scan held = *scan;
+    held.num_plots = held.num_plots < most ? held.num_plots : most;
+    const uint32_t num_held = hold_unclaimed(report->fates, held.num_plots);
+    enum rho_status status =
+        rho_window_push(&starts->window, &held, rho_sensors_find(tracker, scan->sensor_id),
+                        report->fates, &tracker->counters.plots_clutter);
+    recount_held(tracker, report, report->fates, held.num_plots, num_held);
     if (status != RHO_OK || starts->window.num_scans < scans_min) {
         return status;
     }
-    const struct rho_hough_points points = gather_unused_points(starts);
+    /* the transform takes the window's plots, but for those that have started tracks */
+    struct rho_window *window = &starts->window;
+    const int64_t newest_us = rho_window_scan_at(window, window->num_scans - 1u)->time_us;
+    uint32_t num = 0;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *kept = rho_window_scan_at(window, m);
+        const float scan_s = -rho_seconds_between(kept->time_us, newest_us);
+        for (unsigned i = 0; i < kept->num_plots; i++) {
+            if (!(kept->marks[i] & RHO_WINDOW_INITIATED)) {
+                starts->x_m[num] = kept->plots[i].x_m;
+                starts->y_m[num] = kept->plots[i].y_m;
+                starts->t_s[num++] = scan_s + kept->plots[i].offset_s;
+            }
+        }
+        starts->scan_end[m] = num;
+    }
+    starts->num_scans = window->num_scans;
+    const struct rho_hough_points points = rho_paper_starts_points(starts);
     status =
         rho_hough_find(&starts->hough, &points, starts->peaks, RHO_PAPER_PEAKS, &starts->result);
     starts->work.peaks = starts->result.num_peaks;
@@ -273,55 +221,11 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
         status = rho_hough_track(&starts->hough, &points, starts->peaks[i].theta_cell,
                                  starts->peaks[i].rho_cell, 0.0f, &starts->lines[i].line);
         if (status == RHO_OK) {
-            start_track_from_line(starts, tracker, &starts->lines[i], scans_min, report);
+            start_from_line(starts, tracker, &starts->lines[i], scans_min, report);
         }
     }
     starts->has_searched = status == RHO_OK;
     return status;
-}
-
-/* ---- bearings -------------------------------------------------------------------------------- */
-
-/* Kalman estimate of a line's x, y, vx and vy; the fit gives no covariance between the axes. */
-static struct rho_kalman estimate_from_line(const struct rho_passive_paper_line *line)
-{
-    struct rho_kalman estimate;
-    const float state[4] = {line->x_m, line->y_m, line->vx_mps, line->vy_mps};
-    rho_kalman_init(&estimate);
-    for (int axis = 0; axis < 2; axis++) {
-        estimate.state[axis] = state[axis];
-        estimate.state[3 + axis] = state[2 + axis];
-        estimate.covariance[RHO_AT(axis, axis)] = line->place_m2;
-        estimate.covariance[RHO_AT(3 + axis, axis)] = line->place_velocity_m2ps;
-        estimate.covariance[RHO_AT(3 + axis, 3 + axis)] = line->velocity_m2ps2;
-    }
-    return estimate;
-}
-
-static void start_tracks_from_lines(struct rho_passive_paper *paper, struct rho_tracker *tracker,
-                                    struct rho_report *report)
-{
-    for (unsigned i = 0; i < paper->num_lines; i++) {
-        struct rho_passive_paper_line *line = &paper->lines[i];
-        if (line->has_state && is_in_newest_scan(line->scans, paper->batch.num_scans)) {
-            const struct rho_kalman estimate = estimate_from_line(line);
-            /* no track where the tracker has no room, or the fitted covariance is refused */
-            if (rho_tracker_start_estimate(tracker, &estimate, paper->batch.sensors[0].sensor_id,
-                                           (uint16_t)rho_count_bits(line->scans), 0,
-                                           report) == RHO_OK) {
-                line->track_id = newest_track_id(tracker);
-            }
-        }
-    }
-}
-
-static uint32_t num_bearings_in_frame(const struct batch_frame *held)
-{
-    uint32_t num = 0;
-    for (uint32_t i = 0; i < held->frame.num_scans; i++) {
-        num += held->scans[i].num_bearings;
-    }
-    return num;
 }
 
 enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct rho_tracker *tracker,
@@ -330,30 +234,51 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     if (!paper || !tracker || !frame || !report) {
         return RHO_ERROR_NULL;
     }
-    if (!has_stepped(tracker)) {
+    if (!rho_tracker_is_ready(tracker) || !tracker->has_time) {
         return RHO_ERROR_STATE;
     }
-    struct step step = step_from_report(tracker, report);
-    struct batch_frame held;
-    step.frame = frame;
     if (report->time_us != tracker->time_us || frame->num_scans > RHO_MAX_PASSIVE_SENSORS) {
         return RHO_OK;
     }
-    rho_step_frame_to_batch(&step, &held);
-    const uint32_t num = num_bearings_in_frame(&held);
-    const uint32_t before = count_inputs_with_fate(held.fates, num, RHO_FATE_NO_ROOM);
-    mark_no_room_as_held(held.fates, num);
+    const struct rho_look look = {.fates = report->fates, .num_gated = num_with_fates(report)};
+    struct batch_frame held;
+    uint32_t num = 0;
+    rho_step_frame_to_batch(&look, frame, &held);
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        num += held.scans[i].num_bearings;
+    }
+    const uint32_t num_held = hold_unclaimed(held.fates, num);
     enum rho_status status = rho_passive_paper_push(paper, &held.frame, held.fates);
     if (status != RHO_OK) {
         return status;
     }
-    rho_step_batch_to_report(&step, &held);
-    recount_no_room_as_held(&step,
-                            before - count_inputs_with_fate(held.fates, num, RHO_FATE_NO_ROOM));
-    if (paper->batch.num_scans == paper->batch.scans_max) {
-        status = rho_passive_paper_search(paper);
-        if (status == RHO_OK) {
-            start_tracks_from_lines(paper, tracker, report);
+    rho_step_batch_to_report(&look, &held, frame);
+    recount_held(tracker, report, held.fates, num, num_held);
+    if (paper->batch.num_scans < paper->batch.scans_max) {
+        return RHO_OK;
+    }
+    status = rho_passive_paper_search(paper);
+    for (unsigned i = 0; status == RHO_OK && i < paper->num_lines; i++) {
+        struct rho_passive_paper_line *line = &paper->lines[i];
+        if (!line->has_state || !is_in_newest_scan(line->scans, paper->batch.num_scans)) {
+            continue;
+        }
+        /* the fit gives no covariance between the axes */
+        const float state[4] = {line->x_m, line->y_m, line->vx_mps, line->vy_mps};
+        struct rho_kalman estimate;
+        rho_kalman_init(&estimate);
+        for (int axis = 0; axis < 2; axis++) {
+            estimate.state[axis] = state[axis];
+            estimate.state[3 + axis] = state[2 + axis];
+            estimate.covariance[RHO_AT(axis, axis)] = line->place_m2;
+            estimate.covariance[RHO_AT(3 + axis, axis)] = line->place_velocity_m2ps;
+            estimate.covariance[RHO_AT(3 + axis, 3 + axis)] = line->velocity_m2ps2;
+        }
+        /* no track where the tracker has no room, or the fitted covariance is refused */
+        if (rho_tracker_start_estimate(tracker, &estimate, paper->batch.sensors[0].sensor_id,
+                                       (uint16_t)rho_count_bits(line->scans), 0,
+                                       report) == RHO_OK) {
+            line->track_id = newest_track_id(tracker);
         }
     }
     return status;

@@ -34,10 +34,12 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
 void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 
 /* bearing_looks.c: a frame of bearings begins */
-void rho_step_begin_frame(struct step *step);
-/* Opens the look of one scan; first: place of its first bearing in the frame. sensor: room for it */
-void rho_step_open_bearings(struct step *step, const struct rho_bearing_scan *scan, uint32_t first,
-                            struct rho_sensor *sensor);
+void rho_step_begin_frame(struct rho_tracker *tracker, const struct rho_frame *frame,
+                          struct rho_look *look);
+/* Opens the look of a scan; first: place of its first bearing in the frame. sensor: room for it */
+void rho_step_open_bearings(struct rho_tracker *tracker, const struct rho_passive *passive,
+                            struct rho_look *look, const struct rho_bearing_scan *scan,
+                            uint32_t first, struct rho_sensor *sensor);
 void rho_step_validate_bearings(struct rho_tracker *tracker, const struct rho_look *look);
 void rho_step_offer_bearings(struct rho_tracker *tracker, const struct rho_look *look,
                              unsigned row);
@@ -45,10 +47,8 @@ void rho_step_update_by_bearings(struct rho_tracker *tracker, const struct rho_l
 /* True where any sensor of the frame covers the track's place. */
 int rho_step_does_frame_cover(const struct step *step, const struct rho_track *track);
 
-/* age.c: counts misses, confirms and ends tracks; or confirms or ends one, its miss counted */
+/* age.c: counts misses, confirms and ends tracks */
 void rho_step_age(struct step *step);
-void rho_step_confirm_or_end(struct step *step, struct rho_track *track, int is_missed,
-                             const struct rho_track_limits *limits);
 
 /* initiate.c: tracks start from unclaimed plots; the clutter map and counts are updated */
 void rho_step_initiate(struct step *step);
@@ -62,9 +62,30 @@ void rho_step_settle(struct step *step);
  * report.c: merges the hypotheses of each track into one estimate at the step's time; reports
  * fates, counters and tracks, or the tracks alone.
  */
-void rho_step_merge_estimates(struct step *step);
-void rho_step_report(struct step *step);
+void rho_step_merge_estimates(const struct step *step);
+void rho_step_report(const struct step *step);
 void rho_step_report_tracks(const struct step *step);
+
+/* targets.c: which plots are one target, or two? Before claims, at the update, after starts */
+void rho_targets_group_plots(struct step *step);
+void rho_targets_share_plots(struct rho_tracker *tracker, const struct rho_look *look);
+void rho_targets_split(struct step *step);
+
+/*
+ * removal.c: must this track or plot go? Second tracks, once plots are claimed; each track as it
+ * ages, its miss counted; plots, before starts; tracks of images, after starts.
+ */
+void rho_removal_of_duplicates(struct step *step);
+void rho_removal_of_track(struct step *step, struct rho_track *track, int is_missed,
+                          const struct rho_track_limits *limits);
+void rho_removal_of_plots(struct rho_tracker *tracker, const struct rho_look *look,
+                          struct rho_work *work);
+void rho_removal_of_images(struct step *step);
+
+/* speed_limits.c: 1 where a track is surely slower than v_min_mps: it follows a standing object */
+int rho_speed_is_slow(const struct rho_tracker_config *config, const struct rho_track *track);
+/* Counts successive updates that leave a track faster than any target. 1: enough to end it. */
+int rho_speed_count_fast(const struct rho_tracker_config *config, struct rho_track *track);
 
 /* merged_plots.c: pairs of tracks share merged plots, before other tracks take their plots */
 void rho_step_share_merged(struct rho_tracker *tracker, const struct rho_look *look);

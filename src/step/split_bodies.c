@@ -10,32 +10,15 @@
  * and at the old velocity corrected by the mean residual of its range rates.
  */
 #include "phases.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_extent_filter.h"
-
-#define WIDEST_SHARE 0.3f /* largest width of one body, over the length of the longest body */
-#define WIDER_SIGMAS 2.0f /* standard deviations by which a body of two targets is wider */
-/* Plots of a body before its width counts: with fewer, its first heading may still be wrong. */
-#define TOLD_PLOTS 100.0f
 
 struct body_side {
     unsigned plots;
     float x_m, y_m;       /* mean offset of the plots from the track's position */
     float vx_mps, vy_mps; /* mean range-rate residual of the plots, as a velocity offset */
 };
-
-static int is_body_too_wide(const struct rho_tracker *tracker, unsigned row)
-{
-    const struct rho_bodies *bodies = &tracker->bodies;
-    const float widest_m = WIDEST_SHARE * bodies->length_max_m;
-    struct rho_body shape;
-    if (bodies->of[row].plots < TOLD_PLOTS ||
-        !(12.0f * bodies->of[row].across_m2 > widest_m * widest_m)) {
-        return 0;
-    }
-    rho_body_shape(&bodies->of[row], &shape);
-    return shape.width_m - WIDER_SIGMAS * shape.sigma_width_m > widest_m;
-}
 
 /* The coordinate of a plot that tells the sides apart: along, across or range-rate residual. */
 static float separating_value(enum rho_body_split why, const struct body_plot *at)
@@ -45,52 +28,34 @@ static float separating_value(enum rho_body_split why, const struct body_plot *a
                                       : at->rate.mps;
 }
 
-/* Least distance of the outermost plots of two targets, in the coordinate that tells them apart. */
-#define LONG_APART_SHARE 0.5f  /* along the body, over the longest body's length */
-#define WIDE_APART_SHARE 0.15f /* across the body, over the longest body's length */
-#define RATE_APART_SIGMAS 5.0f /* of range rates, over their sigma */
-
-static float least_separation(const struct rho_tracker *tracker, enum rho_body_split why,
-                              float rate_sigma_mps)
-{
-    const float longest_m = tracker->bodies.length_max_m;
-    return why == RHO_BODY_TOO_LONG   ? LONG_APART_SHARE * longest_m
-           : why == RHO_BODY_TOO_WIDE ? WIDE_APART_SHARE * longest_m
-                                      : RATE_APART_SIGMAS * rate_sigma_mps;
-}
-
-/* Middle between the outermost plots that are in no other track's gate. 0: they are too near. */
-static int find_dividing_value(const struct rho_look *look, const struct rho_scan *scan,
-                               unsigned row, enum rho_body_split why, float *middle)
+/*
+ * Sums the track's plots that are in no other track's gate to means on either side of the middle
+ * between the outermost ones. 0: they are too near to show two targets.
+ */
+static int divide_plots(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
+                        enum rho_body_split why, struct body_side sides[2])
 {
     const struct rho_groups *groups = &look->tracker->bodies.groups;
+    const float longest_m = look->tracker->bodies.length_max_m;
+    const unsigned group = groups->first[look->tracker->tracks[row].plot];
     float least = 1e30f, most = -1e30f, rate_m2ps2 = 0.0f;
     struct body_plot at;
-    for (unsigned i =
-             rho_bodies_next_own_plot(groups, groups->first[look->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_bodies_next_own_plot(groups, groups->next[i])) {
+    for (unsigned i = rho_bodies_next_own_plot(groups, group); i != RHO_NO_ROW;
+         i = rho_bodies_next_own_plot(groups, groups->next[i])) {
         (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
         rate_m2ps2 = rho_larger(rate_m2ps2, at.rate.variance_m2ps2);
     }
-    *middle = 0.5f * (least + most);
-    return most - least > least_separation(look->tracker, why, rho_sqrt(rate_m2ps2));
-}
-
-/* Sums the track's plots on either side of the middle to means. 0: they do not show two targets. */
-static int divide_plots_into_sides(const struct rho_look *look, const struct rho_scan *scan,
-                                   unsigned row, enum rho_body_split why, struct body_side sides[2])
-{
-    const struct rho_groups *groups = &look->tracker->bodies.groups;
-    float middle;
-    struct body_plot at;
-    if (!find_dividing_value(look, scan, row, why, &middle)) {
+    const float middle = 0.5f * (least + most);
+    const float parted = why == RHO_BODY_TOO_LONG   ? PARTED_SHARE * longest_m
+                         : why == RHO_BODY_TOO_WIDE ? PARTED_SHARE * WIDEST_SHARE * longest_m
+                                                    : PARTED_SIGMAS * rho_sqrt(rate_m2ps2);
+    if (!(most - least > parted)) {
         return 0;
     }
-    for (unsigned i =
-             rho_bodies_next_own_plot(groups, groups->first[look->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_bodies_next_own_plot(groups, groups->next[i])) {
+    for (unsigned i = rho_bodies_next_own_plot(groups, group); i != RHO_NO_ROW;
+         i = rho_bodies_next_own_plot(groups, groups->next[i])) {
         (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
@@ -110,9 +75,9 @@ static int divide_plots_into_sides(const struct rho_look *look, const struct rho
 }
 
 /* Starts a track at the mean position and velocity of one side's plots. */
-static enum rho_status start_track_from_side(const struct rho_look *look,
-                                             const struct rho_track *track, uint32_t track_id,
-                                             const struct body_side *side, struct rho_track *out)
+static enum rho_status start_from_side(const struct rho_look *look, const struct rho_track *track,
+                                       uint32_t track_id, const struct body_side *side,
+                                       struct rho_track *out)
 {
     const float mean_m2 = rho_bodies_prior_m2(look->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
@@ -128,7 +93,7 @@ static enum rho_status start_track_from_side(const struct rho_look *look,
                                     track->hits, &look->model, track->score_mnat);
 }
 
-static void restart_body_filter_at_prior(struct rho_tracker *tracker, unsigned row)
+static void restart_body_filter(struct rho_tracker *tracker, unsigned row)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
     rho_body_filter_init(body, tracker->tracks[row].track_id, rho_bodies_prior_m2(tracker));
@@ -136,13 +101,13 @@ static void restart_body_filter_at_prior(struct rho_tracker *tracker, unsigned r
 }
 
 /* Splits a track into its own, at side 0, and a new one, at side 1. 0: there is no room for it. */
-static int split_track_in_two(struct step *step, unsigned row, const struct body_side sides[2])
+static int split_track(struct step *step, unsigned row, const struct body_side sides[2])
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
     struct rho_track stays, leaves;
     if (tracker->num_tracks == RHO_MAX_TRACKS ||
-        start_track_from_side(&step->look, track, track->track_id, &sides[0], &stays) != RHO_OK) {
+        start_from_side(&step->look, track, track->track_id, &sides[0], &stays) != RHO_OK) {
         return 0;
     }
     const struct rho_track was = *track;
@@ -151,8 +116,7 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
     track->slot = stays.slot;
     track->kalman = stays.kalman;
     track->input = stays.input;
-    if (start_track_from_side(&step->look, &was, tracker->next_track_id, &sides[1], &leaves) ==
-        RHO_OK) {
+    if (start_from_side(&step->look, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
         const struct rho_track_limits limits = rho_life_limits(&step->look);
         /* the new track is not established: it may still be an image in a wall (reflectors.h) */
         if (leaves.hits >= RHO_ESTABLISHED_HITS) {
@@ -168,22 +132,29 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
 void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
+    const float widest_m = WIDEST_SHARE * tracker->bodies.length_max_m;
     for (unsigned row = 0; step->look.teaches && row < tracker->bodies.count; row++) {
+        const struct rho_body_filter *body = &tracker->bodies.of[row];
         const unsigned num_tracks = tracker->num_tracks;
         struct body_side sides[2] = {{0}, {0}};
+        struct rho_body shape;
         if (tracker->tracks[row].plot < 0) {
             continue;
         }
         rho_bodies_add_doubt(tracker, &step->look, scan, row);
-        const enum rho_body_split why = is_body_too_wide(tracker, row)
-                                            ? RHO_BODY_TOO_WIDE
-                                            : rho_bodies_split_reason(tracker, row);
-        if (why != RHO_BODY_ONE && divide_plots_into_sides(&step->look, scan, row, why, sides) &&
-            split_track_in_two(step, row, sides)) {
-            restart_body_filter_at_prior(tracker, row);
+        enum rho_body_split why = rho_bodies_split_reason(tracker, row);
+        if (body->plots >= SETTLED_PLOTS && 12.0f * body->across_m2 > widest_m * widest_m) {
+            rho_body_shape(body, &shape);
+            if (shape.width_m - SURE_SIGMAS * shape.sigma_width_m > widest_m) {
+                why = RHO_BODY_TOO_WIDE;
+            }
+        }
+        if (why != RHO_BODY_ONE && divide_plots(&step->look, scan, row, why, sides) &&
+            split_track(step, row, sides)) {
+            restart_body_filter(tracker, row);
             if (tracker->num_tracks > num_tracks) {
                 rho_bodies_align(tracker);
-                restart_body_filter_at_prior(tracker, num_tracks);
+                restart_body_filter(tracker, num_tracks);
             }
         }
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * step: a scan of plots, or a frame of bearings, goes through the phases of a step. Both make looks:
- * a scan is one, a scan beyond RHO_MAX_PLOTS several, a frame one a sensor.
+ * step: a scan of plots, or a frame of bearings, goes through the phases of a step. Both make
+ * looks: a scan is one, a scan beyond RHO_MAX_PLOTS several, a frame one a sensor.
  */
 #include "phases.h"
 #include "rhotrack/detail/angle.h"

@@ -10,16 +10,6 @@
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
 
-/* Variances of an estimate are raised by it before they are tested, for the caller's rounding. */
-#define ROUNDING_ALLOWANCE (1.0f + 1e-5f)
-
-/* Row of a held plot in the scan that it came with; -1: it came with an earlier sector. */
-static int16_t row_in_scan_of_window_plot(const struct rho_window_scan *scan, unsigned plot)
-{
-    const int row = (int)(scan->marks[plot] & RHO_WINDOW_ROW);
-    return (int16_t)(row < (int)RHO_WINDOW_ROW ? row : -1);
-}
-
 unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_candidate *candidate,
                                   struct rho_track_plot *plots)
 {
@@ -27,6 +17,7 @@ unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_ca
     for (unsigned m = 0; m < window->num_scans; m++) {
         if ((unsigned)candidate->mask >> m & 1u) {
             const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+            const int row = (int)(scan->marks[candidate->plot[m]] & RHO_WINDOW_ROW);
             struct rho_plot plot = rho_window_unpack_plot(scan, candidate->plot[m]);
             plots[n++] = (struct rho_track_plot){
                 .time_us = scan->time_us + plot.offset_us,
@@ -34,7 +25,8 @@ unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_ca
                 .sensor_id = scan->sensor.sensor_id,
                 .sensor = &scan->sensor,
                 .plot = plot,
-                .row = row_in_scan_of_window_plot(scan, candidate->plot[m]),
+                /* -1: the plot came with an earlier sector */
+                .row = (int16_t)(row < (int)RHO_WINDOW_ROW ? row : -1),
             };
         }
     }
@@ -42,60 +34,43 @@ unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_ca
 }
 
 /*
- * Tentative tracks of low rank give way to new tracks. Rank is the score, or, after coast_scans_max
- * misses in a row, the score's fall from its maximum.
+ * Row of the lowest-ranked tentative track below the score, which gives way to a new track;
+ * RHO_MAX_TRACKS: there is none. Rank is the score, or, after coast_scans_max misses in a row, the
+ * score's fall from its maximum.
  */
-static int32_t rank_of_tentative_track(const struct rho_tracker *tracker,
-                                       const struct rho_track *track)
-{
-    const int hides = track->misses_in_row >= tracker->config.coast_scans_max;
-    return hides ? track->score_mnat - track->score_max_mnat : track->score_mnat;
-}
-
-/* Row of the lowest-ranked tentative track below the score; RHO_MAX_TRACKS: there is none. */
-static unsigned tentative_row_that_gives_way(const struct rho_tracker *tracker, int32_t score_mnat)
+static unsigned lowest_tentative(const struct rho_tracker *tracker, int32_t score_mnat)
 {
     unsigned lowest = RHO_MAX_TRACKS;
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->status == RHO_TRACK_TENTATIVE &&
-            rank_of_tentative_track(tracker, track) < score_mnat) {
-            score_mnat = rank_of_tentative_track(tracker, track);
+        const int hides = track->misses_in_row >= tracker->config.coast_scans_max;
+        const int32_t rank = hides ? track->score_mnat - track->score_max_mnat : track->score_mnat;
+        if (track->status == RHO_TRACK_TENTATIVE && rank < score_mnat) {
+            score_mnat = rank;
             lowest = i;
         }
     }
     return lowest;
 }
 
-/* A full tracker ends its lowest-ranked tentative track below the score. 0: there is none. */
-static int make_room_for_track(struct step *step, int32_t score_mnat)
-{
-    struct rho_tracker *tracker = step->tracker;
-    if (tracker->num_tracks < RHO_MAX_TRACKS) {
-        return 1;
-    }
-    tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
-    const unsigned lowest = tentative_row_that_gives_way(tracker, score_mnat);
-    if (lowest == RHO_MAX_TRACKS) {
-        return 0;
-    }
-    rho_life_end(step, &tracker->tracks[lowest]);
-    tracker->num_tracks--;
-    memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
-            (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
-    if (RHO_KEEPS_OFFERS) {
-        rho_score_remove_row(tracker, lowest);
-    }
-    return 1;
-}
-
 int rho_step_admit(struct step *step, struct rho_track *track,
                    const struct rho_track_limits *limits)
 {
     struct rho_tracker *tracker = step->tracker;
-    if (!make_room_for_track(step, track->score_mnat)) {
-        rho_track_free_hypotheses(track, &step->look.model);
-        return 0;
+    if (tracker->num_tracks == RHO_MAX_TRACKS) {
+        const unsigned lowest = lowest_tentative(tracker, track->score_mnat);
+        tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
+        if (lowest == RHO_MAX_TRACKS) {
+            rho_track_free_hypotheses(track, &step->look.model);
+            return 0;
+        }
+        rho_life_end(step, &tracker->tracks[lowest]);
+        tracker->num_tracks--;
+        memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
+                (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
+        if (RHO_KEEPS_OFFERS) {
+            rho_score_remove_row(tracker, lowest);
+        }
     }
     if (RHO_MAX_ECHOES > 0) {
         rho_echoes_store_start(track);
@@ -108,22 +83,6 @@ int rho_step_admit(struct step *step, struct rho_track *track,
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
     tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);
-    return 1;
-}
-
-/* 1 where plots of a start are valid, and no newer than a plot of the last step can be. */
-static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_report *report,
-                            const struct rho_track_plot *plots, unsigned num_plots)
-{
-    for (unsigned i = 0; i < num_plots; i++) {
-        if (!rho_is_stored_time(plots[i].time_us) ||
-            plots[i].time_us - tracker->time_us > RHO_LIMIT_OFFSET_US || plots[i].row < -1 ||
-            plots[i].row >= (int32_t)report->num_plots ||
-            !rho_measurement_is_valid_plot(&plots[i].plot, plots[i].measures) ||
-            (plots[i].sensor && !rho_measurement_is_valid_site(plots[i].sensor))) {
-            return 0;
-        }
-    }
     return 1;
 }
 
@@ -143,8 +102,8 @@ enum rho_status rho_step_reopen(struct rho_tracker *tracker, struct rho_report *
 }
 
 /* Resumes the newest step for a start. VALUE: its score is too low for a tentative track. */
-static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct rho_report *report,
-                                             int32_t score_mnat, struct step *step)
+static enum rho_status resume_for_start(struct rho_tracker *tracker, struct rho_report *report,
+                                        int32_t score_mnat, struct step *step)
 {
     const enum rho_status status = rho_step_reopen(tracker, report, step);
     if (status != RHO_OK) {
@@ -161,19 +120,19 @@ static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct
  * CAPACITY where the tracker is full, and no track can give way, or the report cannot list it as
  * ended. Told before the start, which takes hypotheses from the pool.
  */
-static enum rho_status check_room_for_start(const struct step *step, int32_t score_mnat)
+static enum rho_status check_room(const struct step *step, int32_t score_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
     if (tracker->num_tracks < RHO_MAX_TRACKS ||
         (step->report->num_ended < RHO_MAX_TRACKS &&
-         tentative_row_that_gives_way(tracker, score_mnat) < RHO_MAX_TRACKS)) {
+         lowest_tentative(tracker, score_mnat) < RHO_MAX_TRACKS)) {
         return RHO_OK;
     }
     tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
     return RHO_ERROR_CAPACITY;
 }
 
-static enum rho_status admit_track_between_steps(struct step *step, struct rho_track *track)
+static enum rho_status admit_between_steps(struct step *step, struct rho_track *track)
 {
     const struct rho_track_limits limits = rho_life_limits(&step->look);
     if (!rho_step_admit(step, track, &limits)) {
@@ -193,17 +152,26 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
     if (!tracker || !plots || !report) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = resume_step_for_start(tracker, report, score_mnat, &step);
+    enum rho_status status = resume_for_start(tracker, report, score_mnat, &step);
     if (status != RHO_OK) {
         return status;
     }
-    if (num_plots < 1 || !are_usable_plots(tracker, report, plots, num_plots)) {
+    if (num_plots < 1) {
         return RHO_ERROR_VALUE;
+    }
+    for (unsigned i = 0; i < num_plots; i++) {
+        if (!rho_is_stored_time(plots[i].time_us) ||
+            plots[i].time_us - tracker->time_us > RHO_LIMIT_OFFSET_US || plots[i].row < -1 ||
+            plots[i].row >= (int32_t)report->num_plots ||
+            !rho_measurement_is_valid_plot(&plots[i].plot, plots[i].measures) ||
+            (plots[i].sensor && !rho_measurement_is_valid_site(plots[i].sensor))) {
+            return RHO_ERROR_VALUE;
+        }
     }
     const struct rho_scan scan = {.time_us = tracker->time_us,
                                   .sensor_id = plots[num_plots - 1].sensor_id};
     step.look.scan = &scan;
-    status = check_room_for_start(&step, score_mnat);
+    status = check_room(&step, score_mnat);
     if (status == RHO_OK) {
         status = rho_track_start(&track, tracker->next_track_id, plots, num_plots, &step.look.model,
                                  score_mnat);
@@ -217,7 +185,7 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
         step.look.teaches = 1;
         rho_turn_note_seen(&step.look, &track);
     }
-    return admit_track_between_steps(&step, &track);
+    return admit_between_steps(&step, &track);
 }
 
 /*
@@ -245,7 +213,8 @@ static int is_usable_estimate(const struct rho_kalman *estimate)
             }
             covariance[RHO_AT(i, j)] = element;
         }
-        covariance[RHO_AT(i, i)] = is_open ? variance * ROUNDING_ALLOWANCE : 1.0f;
+        /* raised by a hundred thousandth, for the caller's rounding */
+        covariance[RHO_AT(i, i)] = is_open ? variance * (1.0f + 1e-5f) : 1.0f;
     }
     return rho_linalg_cholesky(RHO_KALMAN_STATES, covariance, factor) == RHO_OK;
 }
@@ -260,19 +229,19 @@ enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
     if (!tracker || !estimate || !report) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = resume_step_for_start(tracker, report, score_mnat, &step);
+    enum rho_status status = resume_for_start(tracker, report, score_mnat, &step);
     if (status == RHO_OK && !is_usable_estimate(estimate)) {
         status = RHO_ERROR_VALUE;
     }
     if (status == RHO_OK) {
-        status = check_room_for_start(&step, score_mnat);
+        status = check_room(&step, score_mnat);
     }
     if (status == RHO_OK) {
         status =
             rho_track_start_estimate(&track, tracker->next_track_id, estimate, step.look.time_us,
                                      sensor_id, hits, &step.look.model, score_mnat);
     }
-    return status == RHO_OK ? admit_track_between_steps(&step, &track) : status;
+    return status == RHO_OK ? admit_between_steps(&step, &track) : status;
 }
 
 void rho_step_replace_fates(const struct rho_look *look, enum rho_fate from, enum rho_fate to)

@@ -134,11 +134,11 @@ tracker_must_find() { seeded fuzz_tracker_small "$@"; } # file, what is wrong, s
 tracker_must_find src/step/report.c 'a fate that is not counted' \
     's/(NO_ROOM\] \+= others);/\1 - (others > 2);/'
 tracker_must_find src/step/report.c 'a covariance that is none' \
-    's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += '\
+    's/^( +memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += '\
 '9.0f * (out->covariance[0] + out->covariance[2]);/'
-tracker_must_find src/step/begin_step_or_refuse_late_scan.c \
+tracker_must_find src/step/begin.c \
     'a scan that is too late, and changes the density' \
-    's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
+    's/(counters.scans_late = rho_count.*)/\1 tracker->unclaimed_plots += 1.0f;/'
 tracker_must_find src/tracker/track_life.c 'an end that is not told' \
     's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
 tracker_must_find src/step/track_starts.c 'an identity that comes again' \

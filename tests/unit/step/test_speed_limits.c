@@ -70,7 +70,7 @@ static void tracks_surely_slower_than_v_min_end(void **state)
             track->kalman.covariance[RHO_AT(axis, axis)] = 100.0f;
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
-        rho_step_confirm_or_end(&at, track, 0, &limits);
+        rho_removal_of_track(&at, track, 0, &limits);
         assert_int_equal(track->status, i ? RHO_TRACK_CONFIRMED : RHO_TRACK_FREE);
     }
 }
