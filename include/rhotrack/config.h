@@ -214,9 +214,36 @@
 #define RHO_MAX_EXCLUDED_AREAS RHO_CONFIG_PICK(4, 16)
 #endif
 
-/* Zones (rhotrack/zones.h). RAM: 8 bytes a zone and track. 1 .. 30. */
+/*
+ * Zones (rhotrack/zones.h). 0 leaves them out of a node. RAM: 8 bytes a zone and track. 0 .. 30.
+ */
 #ifndef RHO_MAX_ZONES
 #define RHO_MAX_ZONES RHO_CONFIG_PICK(16, 30)
+#endif
+
+/*
+ * Initiation windows of a node (rhotrack/node.h): one a radar, or a pair of radars; the last one is
+ * shared by all radars that come later. A node holds the first, the others are in storage that the
+ * caller gives. RAM: 12 bytes each; above 1 also 57 a plot. 1 .. 1024.
+ */
+#ifndef RHO_MAX_WINDOWS
+#define RHO_MAX_WINDOWS RHO_CONFIG_PICK(1, 257)
+#endif
+
+/*
+ * Scans of plots that wait in a node for an open frame of bearings; one more closes the frame. RAM:
+ * 56 bytes a plot of RHO_MAX_PLOTS each. 0 .. 64.
+ */
+#ifndef RHO_MAX_WAITING_SCANS
+#define RHO_MAX_WAITING_SCANS RHO_CONFIG_PICK(0, 4)
+#endif
+
+/*
+ * Commands and settings of an operator that wait in a node for the end of a step. 0 leaves
+ * operators out of the node. RAM: 230 bytes each. 0 .. 255.
+ */
+#ifndef RHO_MAX_COMMANDS
+#define RHO_MAX_COMMANDS RHO_CONFIG_PICK(0, 16)
 #endif
 
 /*
@@ -236,6 +263,22 @@
  */
 #ifndef RHO_SEARCHES
 #define RHO_SEARCHES 1
+#endif
+
+/*
+ * 1: a node can start tracks by the papers' methods (paper_starts.h). 0: left out of the node.
+ * Default, embedded: where the library's searches are left out.
+ */
+#ifndef RHO_PAPERS
+#define RHO_PAPERS RHO_CONFIG_PICK(!(RHO_SEARCHES), 1)
+#endif
+
+/*
+ * 1: a node can learn walls (reflectors.h; needs RHO_MAX_REFLECTORS). 0: left out of the node (5.5
+ * KB less on a Cortex-M4).
+ */
+#ifndef RHO_LEARNS_REFLECTORS
+#define RHO_LEARNS_REFLECTORS RHO_CONFIG_PICK(0, RHO_MAX_REFLECTORS > 0)
 #endif
 
 /*
@@ -553,8 +596,8 @@
 #if RHO_STROBE_BINS < 8 || RHO_STROBE_BINS > 4096
 #error "RHO_STROBE_BINS must be 8 .. 4096"
 #endif
-#if RHO_MAX_ZONES < 1 || RHO_MAX_ZONES > 30
-#error "RHO_MAX_ZONES must be 1 .. 30"
+#if RHO_MAX_ZONES < 0 || RHO_MAX_ZONES > 30
+#error "RHO_MAX_ZONES must be 0 .. 30"
 #endif
 #if RHO_SEARCHES != 0 && RHO_SEARCHES != 1
 #error "RHO_SEARCHES must be 0 or 1"
@@ -597,6 +640,24 @@
 #endif
 #if RHO_MAX_OPEN_SCANS < 1 || RHO_MAX_OPEN_SCANS > 64
 #error "RHO_MAX_OPEN_SCANS must be 1 .. 64"
+#endif
+#if RHO_MAX_WINDOWS < 1 || RHO_MAX_WINDOWS > 1024
+#error "RHO_MAX_WINDOWS must be 1 .. 1024"
+#endif
+#if RHO_MAX_WAITING_SCANS < 0 || RHO_MAX_WAITING_SCANS > 64
+#error "RHO_MAX_WAITING_SCANS must be 0 .. 64"
+#endif
+#if RHO_MAX_COMMANDS < 0 || RHO_MAX_COMMANDS > 255
+#error "RHO_MAX_COMMANDS must be 0 .. 255"
+#endif
+#if RHO_PAPERS != 0 && RHO_PAPERS != 1
+#error "RHO_PAPERS must be 0 or 1"
+#endif
+#if RHO_LEARNS_REFLECTORS != 0 && RHO_LEARNS_REFLECTORS != 1
+#error "RHO_LEARNS_REFLECTORS must be 0 or 1"
+#endif
+#if RHO_LEARNS_REFLECTORS && RHO_MAX_REFLECTORS == 0
+#error "RHO_LEARNS_REFLECTORS needs RHO_MAX_REFLECTORS"
 #endif
 #if RHO_MAX_PARTS < 1 || RHO_MAX_PARTS > 32767
 #error "RHO_MAX_PARTS must be 1 .. 32767"

@@ -165,6 +165,13 @@ RHO_MUST_CHECK enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loa
                                                  const uint8_t *bytes, size_t size);
 
 /*
+ * Place of a part's object in an image of these parts, in bytes from its begin: to read an image in
+ * addressable memory without loading it. Cost: num_parts.
+ */
+size_t rho_snapshot_offset(const struct rho_snapshot_part *parts, unsigned num_parts,
+                           unsigned place);
+
+/*
  * Lists the parts of an image: fills kind, id and size of up to max_parts parts; their pointers
  * stay. Sets *num_parts to the number of parts in the image. Errors: those of rho_snapshot_load up
  * to the checksum. Cost: the checksum.

@@ -407,10 +407,18 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Initialises an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS).
- * Cost: sizeof(tracker) bytes cleared. Stack: 384 bytes.
+ * Cost: sizeof(tracker) bytes cleared. Stack: 400 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
+
+/*
+ * Begins anew after a change of the sensors' clock: tracks, sensors and what was learned of them
+ * are dropped. Configuration, counters, work, walls, excluded areas, the length of bodies and the
+ * clutter map's standing echoes stay.
+ * Errors: NULL, STATE (not initialised). Cost: sizeof(tracker) bytes cleared. Stack: 500 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_restart(struct rho_tracker *tracker);
 
 /*
  * Changes the configuration, from the next step on; tracks and all learned values are kept. Tracks

@@ -34,6 +34,8 @@ extern "C" {
 #endif
 
 #define RHO_ZONE_CORNERS 8
+/* Places for zones: RHO_MAX_ZONES, and 1 in a build without them. */
+#define RHO_ZONE_PLACES (RHO_MAX_ZONES > 0 ? RHO_MAX_ZONES : 1)
 #define RHO_ZONE_EVENTS 64 /* largest number of events of a step */
 
 /* Largest values of a zone's fields; the heading may have either sign. */
@@ -94,7 +96,7 @@ struct rho_zone_visitor {
     uint32_t track_id;
     uint32_t inside, queued; /* bit i is set: the track is inside zone i, and in its queue */
     float speed_mps;
-    int64_t since_us[RHO_MAX_ZONES];
+    int64_t since_us[RHO_ZONE_PLACES];
 };
 
 struct rho_zones {
@@ -105,10 +107,10 @@ struct rho_zones {
      */
     uint32_t events_dropped;
     int64_t time_us; /* time of the last step */
-    struct rho_zone zones[RHO_MAX_ZONES];
-    struct rho_extent bounds[RHO_MAX_ZONES]; /* private: limits of the zones with their margins */
+    struct rho_zone zones[RHO_ZONE_PLACES];
+    struct rho_extent bounds[RHO_ZONE_PLACES]; /* private: limits of the zones with their margins */
     /* counts of the zones, in the order of the zones */
-    struct rho_zone_counts counts[RHO_MAX_ZONES];
+    struct rho_zone_counts counts[RHO_ZONE_PLACES];
     struct rho_zone_event events[RHO_ZONE_EVENTS]; /* events of the last step */
     struct rho_zone_visitor visitors[RHO_MAX_TRACKS];
 };

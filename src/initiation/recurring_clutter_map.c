@@ -5,6 +5,7 @@
  */
 #include "rhotrack/detail/recurring_clutter_map_operations.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "policy.h"
@@ -383,6 +384,49 @@ enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_map *map, unsig
     map->tables[0][region].looks[c][g] = looks;
     map->tables[0][region].returns[c][g] = returns;
     return RHO_OK;
+}
+
+/* Puts the counts of all blocks into the first table, as a saved map has them. */
+static void merge_blocks(struct rho_clutter_map *map)
+{
+    const unsigned num = RHO_ECHO_TABLES * (sizeof map->tables[0][0] / sizeof(float));
+    float *sums = (float *)map->tables;
+    for (unsigned i = 0; i < num; i++) {
+        sums[i] += sums[num + i];
+        sums[i] += sums[2u * num + i];
+    }
+    memset(map->tables[1], 0, 2u * sizeof map->tables[1]);
+    for (unsigned region = 0; region < RHO_ECHO_TABLES; region++) {
+        float *looks = map->tables[0][region].looks[0];
+        float *returns = map->tables[0][region].returns[0];
+        for (unsigned i = 0; i < RHO_ECHO_HIT_CLASSES * RHO_ECHO_GAP_CLASSES; i++) {
+            returns[i] = rho_smaller(rho_larger(returns[i], 0.0f), looks[i]);
+        }
+    }
+}
+
+void rho_clutter_map_restart(struct rho_clutter_map *map)
+{
+    const float v_min_mps = map->v_min_mps;
+    unsigned kept = 0;
+    merge_blocks(map);
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
+        const struct rho_echo *echo = &map->echoes[i];
+        if (echo->hits >= RHO_ECHO_KNOWN_HITS && rho_clutter_map_is_echo_standing(echo)) {
+            const struct rho_echo taught = {.sensor_id = echo->sensor_id,
+                                            .x_m = echo->x_m,
+                                            .y_m = echo->y_m,
+                                            .along = {echo->along[0]},
+                                            .across = {echo->across[0]},
+                                            .plot = -1,
+                                            .hits = echo->hits,
+                                            .region = UINT8_MAX};
+            map->echoes[kept++] = taught;
+        }
+    }
+    memset(&map->echoes[kept], 0, (RHO_ECHO_PLACES - kept) * sizeof map->echoes[0]);
+    memset(map, 0, offsetof(struct rho_clutter_map, tables));
+    rho_clutter_map_init(map, v_min_mps);
 }
 
 static int is_sound_axis_covariance(const float axis[3])

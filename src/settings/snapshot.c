@@ -413,6 +413,16 @@ enum rho_status rho_snapshot_list(const void *image, size_t size, struct rho_sna
     return RHO_OK;
 }
 
+size_t rho_snapshot_offset(const struct rho_snapshot_part *parts, unsigned num_parts,
+                           unsigned place)
+{
+    size_t offset = HEADER_BYTES + (size_t)num_parts * PART_BYTES;
+    for (unsigned i = 0; parts && i < place && i < num_parts; i++) {
+        offset += parts[i].size + padding_of(parts[i].size);
+    }
+    return offset;
+}
+
 enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigned num_parts,
                                   const void *image, size_t size)
 {

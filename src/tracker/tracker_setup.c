@@ -4,6 +4,7 @@
  */
 #include "rhotrack/tracker.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "clutter.h"
@@ -76,6 +77,24 @@ static struct rho_imm_model motion_model(const struct rho_tracker_config *config
     return model;
 }
 
+/* Prepares a cleared tracker for its first step; its clutter map is initialised. */
+static enum rho_status begin_tracking(struct rho_tracker *tracker)
+{
+    tracker->next_track_id = 1;
+    tracker->looks_max = 1;
+    tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
+    if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
+        const struct rho_imm_model model = motion_model(&tracker->config);
+        const enum rho_status status =
+            rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
+        if (status != RHO_OK) {
+            return status;
+        }
+    }
+    tracker->magic = RHO_TRACKER_MAGIC;
+    return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
+}
+
 enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                  const struct rho_tracker_config *config)
 {
@@ -91,22 +110,32 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     const struct rho_tracker_config copy = *config;
     memset(tracker, 0, sizeof *tracker);
     tracker->config = copy;
-    tracker->next_track_id = 1;
-    tracker->looks_max = 1;
-    tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
     if (RHO_MAX_ECHOES > 0) {
         rho_echoes_init(tracker);
     }
-    if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
-        const struct rho_imm_model model = motion_model(&copy);
-        const enum rho_status status =
-            rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
-        if (status != RHO_OK) {
-            return status;
-        }
+    return begin_tracking(tracker);
+}
+
+enum rho_status rho_tracker_restart(struct rho_tracker *tracker)
+{
+    if (!tracker) {
+        return RHO_ERROR_NULL;
     }
-    tracker->magic = RHO_TRACKER_MAGIC;
-    return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    const float body_max_m = tracker->bodies.length_max_m, clutter = tracker->clutter_per_m2;
+    /* config, counters and work stand between the two */
+    memset(tracker, 0, offsetof(struct rho_tracker, config));
+    memset((uint8_t *)tracker + offsetof(struct rho_tracker, sensors), 0,
+           offsetof(struct rho_tracker, clutter_map) - offsetof(struct rho_tracker, sensors));
+    memset(&tracker->bodies, 0, sizeof tracker->bodies);
+    tracker->bodies.length_max_m = body_max_m;
+    tracker->clutter_per_m2 = clutter;
+    if (RHO_MAX_ECHOES > 0) {
+        rho_clutter_map_restart(&tracker->clutter_map);
+    }
+    return begin_tracking(tracker);
 }
 
 enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,

@@ -274,7 +274,7 @@ enum rho_status rho_zones_step(struct rho_zones *zones, const struct rho_report 
     zones->time_us = report->time_us;
     remove_gone_visitors(zones, report);
     /* all zones by each track, in the order of the report, and then the zones' counts */
-    struct occupants occupants_of[RHO_MAX_ZONES] = {{0}};
+    struct occupants occupants_of[RHO_ZONE_PLACES] = {{0}};
     unsigned from = 0;
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const struct rho_track_report *reported = &report->tracks[i];

@@ -10,7 +10,7 @@
 check 'the records are made' record_all
 
 sources=("$root"/src/*/*.c \
-    "$root"/tools/firmware/{lcm_datagram_node,initiation_by_library,replay}.c \
+    "$root"/tools/firmware/{lcm_datagram_node,replay}.c \
     "$root"/tools/firmware/board/host/files_host.c)
 build_replay() { # file, compiler, flags...
     local file=$1

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The node that learns walls (NODE_LEARNS_REFLECTORS in its configuration): cars beside a guard rail
+# The node that learns walls (RHO_LEARNS_REFLECTORS in its configuration): cars beside a guard rail
 # of which nobody told.
 # shellcheck source=tests/firmware/record_and_replay_logs.bash
 . "$(dirname "$0")/record_and_replay_logs.bash"
@@ -8,14 +8,14 @@
 
 cat >learns.h <<'H'
 #define RHO_MAX_REFLECTORS 4
-#define NODE_LEARNS_REFLECTORS 1
+#define RHO_LEARNS_REFLECTORS 1
 #include "nodes/traffic.h"
 H
 sed 's/LEARNS_REFLECTORS 1/LEARNS_REFLECTORS 0/' learns.h >knows-none.h
 build_with() { # configuration
     gcc -std=c99 -O1 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -I. \
         -DRHO_CONFIG_FILE="\"$1.h\"" -o "./$1" "$root"/src/*/*.c \
-        "$root"/tools/firmware/{lcm_datagram_node,initiation_by_library,replay}.c \
+        "$root"/tools/firmware/{lcm_datagram_node,replay}.c \
         "$root"/tools/firmware/board/host/files_host.c
 }
 check 'a record' record rail guard-rail plots --set reflectors.0.is_told=false

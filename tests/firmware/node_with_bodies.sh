@@ -15,7 +15,7 @@ H
 build_with() { # configuration
     gcc -std=c99 -O1 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -I. \
         -DRHO_CONFIG_FILE="\"$1.h\"" -o "./$1" "$root"/src/*/*.c \
-        "$root"/tools/firmware/{lcm_datagram_node,initiation_by_library,replay}.c \
+        "$root"/tools/firmware/{lcm_datagram_node,replay}.c \
         "$root"/tools/firmware/board/host/files_host.c
 }
 check 'a record of trucks and cars' record trucks trucks plots --set duration_s=20

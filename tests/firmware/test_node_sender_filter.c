@@ -88,11 +88,11 @@ static void start_node(const uint32_t *sources, uint16_t num_sources,
 {
     struct node_config config;
     node_config_default(&config);
-    config.send = keep_newest_status;
-    config.clock_us = simulated_clock_us;
+    config.hooks.send = keep_newest_status;
+    config.hooks.clock_us = simulated_clock_us;
     config.sources = sources;
     config.num_sources = num_sources;
-    config.is_authentic = hook;
+    config.hooks.is_authentic = hook;
     assert_int_equal(node_start(&config), RHO_OK);
     assert_int_equal(node_sender_filter()->refused_source, 0);
 }
@@ -216,8 +216,8 @@ static void bad_lists_of_allowed_addresses_are_refused(void **state)
     struct node_config config;
     (void)state;
     node_config_default(&config);
-    config.send = keep_newest_status;
-    config.clock_us = simulated_clock_us;
+    config.hooks.send = keep_newest_status;
+    config.hooks.clock_us = simulated_clock_us;
     config.sources = sources;
     config.num_sources = RHO_UDPM_MAX_SOURCES + 1;
     assert_int_equal(node_start(&config), RHO_ERROR_VALUE);

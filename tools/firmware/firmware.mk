@@ -29,8 +29,7 @@ memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 # What any compiler can look at: all but what is the board's.
 firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
 firmware_scripts := $(wildcard $(board)/mps2/*.ld) $(firmware_folder)/firmware.mk
-firmware_node := $(firmware_folder)/lcm_datagram_node.c \
-                 $(firmware_folder)/initiation_by_library.c
+firmware_node := $(firmware_folder)/lcm_datagram_node.c
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/radar_node_main.c \
                  $(board)/udp_frame.c $(board)/memory.c \
                  $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
@@ -76,6 +75,8 @@ firmware_compile = @mkdir -p $(@D) && echo "  arm      $@" && $(ARM_CC) $(1) -c 
 firmware_bind = @echo "  link     $@" && $(ARM_CC) $(1) $(firmware_link) -Wl,-Map=$@.map -o $@ $(2)
 
 $(firmware)/m4/%/memory.o $(firmware)/m7/%/memory.o: private part_flags := $(memory_flags)
+# The one node's address, known in all functions, would be loaded field by field.
+$(foreach core,m4 m7,$(firmware)/$(core)/%/lcm_datagram_node.o): private part_flags := -fno-ipa-cp
 
 define firmware_core # m4 or m7
 $(firmware)/$(1)/radar.elf: $(radar_sources:%.c=$(firmware)/$(1)/radar/%.o) $(firmware_scripts)
@@ -95,13 +96,9 @@ $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 worst_sources := $(library_sources) tools/instructions/worst_step_search.c \
                  $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout.c)
 
-# How tracks of a node start (node_initiation.h).
-starts_of = $(firmware_folder)/node_initiation_by_$(if $(filter paper,$(1)),papers,library).c
-sources_of = $(filter-out $(firmware_folder)/node_initiation_by_%.c,$(2)) $(call starts_of,$(1))
-
 define node_of # core, name
 $(firmware)/$(1)/nodes/$(2).elf: \
-    $(patsubst %.c,$(firmware)/$(1)/nodes/$(2)/%.o,$(call sources_of,$(2),$(radar_sources))) \
+    $(patsubst %.c,$(firmware)/$(1)/nodes/$(2)/%.o,$(radar_sources)) \
     $(firmware_scripts)
 	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nostdlib -T node.ld,$$(filter %.o,$$^) -lgcc)
 $(firmware)/$(1)/nodes/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
@@ -122,7 +119,7 @@ $(foreach name,$(worst_names_m4),$(eval $(call worst_of,m4,$(name))))
 
 define replay_of # name
 $(firmware)/m4/nodes/$(1)-replay.elf: \
-    $(patsubst %.c,$(firmware)/m4/nodes/$(1)/%.o,$(call sources_of,$(1),$(replay_sources))) \
+    $(patsubst %.c,$(firmware)/m4/nodes/$(1)/%.o,$(replay_sources)) \
     $(firmware_scripts)
 	$$(call firmware_bind,$$(m4_flags) $(FIRMWARE_OPT) -nodefaultlibs -T large.ld, \
 	    $$(filter %.o,$$^) -lc -lgcc)
@@ -170,7 +167,7 @@ replay_radar := $(BUILD)/firmware/replay-radar
 $(replay_radar): $(replay_needs) $(library_sources) $(replay_headers) Makefile
 	$(call compile,$(radar_flags)) $(LDFLAGS) -MF /dev/null -o $@ $(filter %.c,$^)
 replay_paper := $(BUILD)/firmware/replay-paper
-$(replay_paper): $(call sources_of,paper,$(replay_needs)) $(library_sources) $(replay_headers) \
+$(replay_paper): $(replay_needs) $(library_sources) $(replay_headers) \
                  $(firmware_folder)/nodes/paper.h Makefile
 	$(call compile,$(firmware_flags) -DRHO_CONFIG_FILE='"nodes/paper.h"') $(LDFLAGS) \
 	    -MF /dev/null -o $@ $(filter %.c,$^)

@@ -21,39 +21,43 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/initiator.h"
-#include "rhotrack/scan_assembler.h"
-#include "rhotrack/tracker.h"
+#include "rhotrack/node.h"
 #include "rhotrack/udpm.h"
 
-struct node_config {
-    struct rho_scan_assembler_config assembler;
-    struct rho_tracker_config tracker;
-    struct rho_initiator_config initiator;
-    /* num_sensors known sensors; only read by node_start */
-    const struct rho_scan_assembler_sensor *sensors;
-    uint16_t num_sensors;
-    /*
-     * Protection on an open network. sources: num_sources IPv4 addresses (10.9.0.1 as 0x0a090001)
-     * that datagrams are accepted from, 0: any; only read by node_start. is_authentic checks the
-     * authentication code at the end of a datagram: returns 0 where it is wrong, else sets *size to
-     * the size without it; NULL: there are no codes. Codes of sent datagrams are added in send.
-     */
-    const uint32_t *sources;
-    uint16_t num_sources;
-    int (*is_authentic)(void *context, const uint8_t *datagram, size_t *size);
-    /*
-     * Count of starts in non-volatile memory, by which receivers see that track numbers began anew:
-     * the epoch in messages is 256 boot plus the number of jumps of the sensors' clock.
-     */
-    int32_t boot;
-    /* Callbacks, called from within the functions below, which they must not call. */
+/* Callbacks, called from within the functions below, which they must not call. */
+struct node_hooks {
     void *context;
     /* sends a datagram to LCM's group and port */
     void (*send)(void *context, const uint8_t *datagram, size_t size);
     /* called after each step, before its messages are sent; may be NULL */
     void (*stepped)(void *context, const struct rho_report *report);
     int64_t (*clock_us)(void *context); /* clock for the step times in RHO_STATUS */
+    /*
+     * checks the authentication code at the end of a datagram: returns 0 where it is wrong, else
+     * sets *size to the size without it; NULL: there are no codes. Codes of sent datagrams are
+     * added in send
+     */
+    int (*is_authentic)(void *context, const uint8_t *datagram, size_t *size);
+};
+
+struct node_config {
+    struct rho_settings settings;
+    struct rho_node_config node; /* of the parts; its epoch is not used */
+    /* num_sensors known sensors; only read by node_start */
+    const struct rho_scan_assembler_sensor *sensors;
+    uint16_t num_sensors;
+    /*
+     * Protection on an open network, with hooks.is_authentic: num_sources IPv4 addresses (10.9.0.1
+     * as 0x0a090001) that datagrams are accepted from, 0: any; only read by node_start.
+     */
+    uint16_t num_sources;
+    const uint32_t *sources;
+    /*
+     * Count of starts in non-volatile memory, by which receivers see that track numbers began anew:
+     * the epoch in messages is 256 boot plus the number of jumps of the sensors' clock.
+     */
+    int32_t boot;
+    struct node_hooks hooks;
 };
 
 /*

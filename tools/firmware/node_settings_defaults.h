@@ -6,8 +6,7 @@
 #ifndef RHOTRACK_FIRMWARE_NODE_SETTINGS_DEFAULTS_H
 #define RHOTRACK_FIRMWARE_NODE_SETTINGS_DEFAULTS_H
 
-#include "rhotrack/initiator.h"
-#include "rhotrack/tracker.h"
+#include "rhotrack/node.h"
 
 #ifndef NODE_INTERVAL_S
 #define NODE_INTERVAL_S 4.0f
@@ -40,10 +39,6 @@
 #ifndef NODE_BODY_MAX_M
 #define NODE_BODY_MAX_M 0.0f
 #endif
-/* 1: reflectors that make mirror images are learned (needs RHO_MAX_REFLECTORS above 0). */
-#ifndef NODE_LEARNS_REFLECTORS
-#define NODE_LEARNS_REFLECTORS 0
-#endif
 #ifndef NODE_GATE
 #define NODE_GATE (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST)
 #endif
@@ -51,18 +46,27 @@
 #define NODE_WORK_MAX RHO_WORK_MAX
 #endif
 
-/* Fills both configs with the library's defaults and the node's settings. */
-static inline void node_settings(struct rho_tracker_config *tracker,
-                                 struct rho_initiator_config *initiator)
+/*
+ * Fills in the node's settings, and the configurations of its parts with them. Sensors that are not
+ * in known_radars.h, and the search for tracks in bearings, have the library's defaults.
+ */
+static inline void node_settings(struct rho_settings *settings, struct rho_node_config *config)
 {
-    rho_tracker_config_default(tracker);
-    rho_initiator_config_default(initiator);
-    tracker->v_min_mps = initiator->v_min_mps = NODE_V_MIN_MPS;
-    tracker->v_max_mps = initiator->v_max_mps = NODE_V_MAX_MPS;
-    tracker->accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
-    initiator->turn_mps2 = 0.2f * NODE_ACCEL_MAX_MPS2;
-    tracker->gate = NODE_GATE;
-    tracker->work_max = initiator->work_max = NODE_WORK_MAX;
+    rho_settings_default(settings);
+    settings->v_min_mps = NODE_V_MIN_MPS;
+    settings->v_max_mps = NODE_V_MAX_MPS;
+    settings->accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
+    settings->range_max_m = NODE_RANGE_MAX_M;
+    settings->work_max = NODE_WORK_MAX;
+    rho_node_config_default(config, settings);
+    rho_scan_assembler_config_default(&config->assembler);
+    if (RHO_NODE_HAS_PASSIVE) {
+        rho_passive_config_default(&config->passive);
+    }
+    config->passive_range_max_m = 0.0f;
+    config->tracker.gate = NODE_GATE;
+    config->body_max_m = NODE_BODY_MAX_M;
+    config->options.learns_reflectors = RHO_LEARNS_REFLECTORS;
 }
 
 #endif

@@ -41,6 +41,11 @@
 #define RHO_MAX_EXCLUDED_AREAS 0
 #endif
 
+/* No zones. */
+#ifndef RHO_MAX_ZONES
+#define RHO_MAX_ZONES 0
+#endif
+
 /* No Doppler notch; it would take 2.3 KB of flash. */
 #ifndef RHO_DOPPLER_NOTCH
 #define RHO_DOPPLER_NOTCH 0

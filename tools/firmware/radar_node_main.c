@@ -30,8 +30,8 @@ static enum rho_status start_node(void)
     config.sensors = radars;
     config.num_sensors = sizeof radars / sizeof *radars;
     config.boot = board_count_start();
-    config.send = send_datagram;
-    config.clock_us = monotonic_clock_us;
+    config.hooks.send = send_datagram;
+    config.hooks.clock_us = monotonic_clock_us;
     return node_start(&config);
 }
 

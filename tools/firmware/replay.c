@@ -157,18 +157,21 @@ static int try_to_set_option(struct node_config *config, const char *argument)
 {
     const char *value = strchr(argument, '=');
     size_t length = value ? (size_t)(value - argument) : 0;
+    struct rho_tracker_config *tracker = &config->node.tracker;
+    struct rho_initiator_config *initiator = &config->node.initiator;
+    struct rho_hough_config *hough = &config->node.paper_starts.hough;
     if (length == 4 && strncmp(argument, "gate", length) == 0) {
-        config->tracker.gate = (uint8_t)gate_of_name_or_invalid(value + 1);
-        config->tracker.input.is_estimated = config->tracker.gate != RHO_TRACKER_BEST;
+        tracker->gate = (uint8_t)gate_of_name_or_invalid(value + 1);
+        tracker->input.is_estimated = tracker->gate != RHO_TRACKER_BEST;
     } else if (length == 9 && strncmp(argument, "v_min_mps", length) == 0) {
-        config->initiator.v_min_mps = parse_whole_number_or_minus_1(value + 1);
-        config->tracker.v_min_mps = config->initiator.v_min_mps;
+        tracker->v_min_mps = parse_whole_number_or_minus_1(value + 1);
+        initiator->v_min_mps = hough->v_min_mps = tracker->v_min_mps;
     } else if (length == 9 && strncmp(argument, "v_max_mps", length) == 0) {
-        config->initiator.v_max_mps = parse_whole_number_or_minus_1(value + 1);
-        config->tracker.v_max_mps = config->initiator.v_max_mps;
+        tracker->v_max_mps = parse_whole_number_or_minus_1(value + 1);
+        initiator->v_max_mps = hough->v_max_mps = tracker->v_max_mps;
     } else if (length == 10 && strncmp(argument, "accel_mps2", length) == 0) {
-        config->tracker.accel_max_mps2 = parse_whole_number_or_minus_1(value + 1);
-        config->initiator.turn_mps2 = 0.2f * config->tracker.accel_max_mps2;
+        tracker->accel_max_mps2 = parse_whole_number_or_minus_1(value + 1);
+        initiator->turn_mps2 = 0.2f * tracker->accel_max_mps2;
     } else if (length == 6 && strncmp(argument, "radars", length) == 0) {
         config->sensors = radars;
         config->num_sensors = value[1] == '1' ? sizeof radars / sizeof *radars : 0;
@@ -187,9 +190,9 @@ static int try_to_start_node_with_options(int count, char **arguments)
             return 0;
         }
     }
-    config.send = write_sent_datagram_to_log;
-    config.stepped = tally_step_and_log_plot_fates;
-    config.clock_us = zero_clock_us;
+    config.hooks.send = write_sent_datagram_to_log;
+    config.hooks.stepped = tally_step_and_log_plot_fates;
+    config.hooks.clock_us = zero_clock_us;
     return node_start(&config) == RHO_OK;
 }
 

@@ -29,8 +29,7 @@ import stack
 FIRMWARE = pathlib.Path("tools/firmware")
 PROGRAMS = {"stepped": [FIRMWARE / "budget/size_tracker.c"],
             "LCM node": [FIRMWARE / "budget/size_node.c",
-                         FIRMWARE / "lcm_datagram_node.c",
-                         FIRMWARE / "initiation_by_library.c"]}
+                         FIRMWARE / "lcm_datagram_node.c"]}
 MEMORY = FIRMWARE / "board/memory.c"
 FLASH = re.compile(r"\.(text|rodata|data|sdata|srodata|literal|ARM\.ex)")
 RAM = re.compile(r"\.(data|sdata|bss|sbss|COMMON)")
@@ -45,7 +44,8 @@ PARTS = {
     "report": ("tracks RHO_MAX_TRACKS", "fates RHO_MAX_PLOTS"),
     "scan_assembler": ("slots RHO_MAX_OPEN_SCANS RHO_MAX_PLOTS", "known RHO_MAX_SENSORS"),
 }
-WHOLE = {"passive": "RHO_SCAN_KINDS", "frames": "RHO_SCAN_KINDS", "plots": "RHO_MAX_PLOTS"}
+WHOLE = {"passive": "RHO_SCAN_KINDS", "frames": "RHO_SCAN_KINDS", "plots": "RHO_MAX_PLOTS",
+         "zones": "RHO_MAX_ZONES"}
 # {variable in the programs: its struct, where the names differ}
 CALLED = {"assembler": "scan_assembler"}
 # {folder of src/: macros that make its code smaller}
@@ -55,7 +55,18 @@ ROOMS = {
     "src/tracker": "RHO_SECTORS RHO_MAX_ECHOES",
     "src/step": "RHO_SECTORS RHO_SHARES_PLOTS", "src/bearings": "RHO_SCAN_KINDS",
     "src/wire": "RHO_SCAN_KINDS", "src/window": "RHO_SEARCHES",
-    "src/measurement": "RHO_DOPPLER_NOTCH", "src/papers": "RHO_FILTERS",
+    "src/node": "RHO_SCAN_KINDS RHO_MAX_ZONES", "src/measurement": "RHO_DOPPLER_NOTCH",
+    "src/papers": "RHO_FILTERS",
+}
+# {part of a node that is listed as an object of its own: its size}
+NODE = {
+    "tracker": "sizeof(struct rho_tracker)",
+    "initiator": "(RHO_SEARCHES) * sizeof(struct rho_initiator)",
+    "report": "sizeof(struct rho_report)",
+    "scan_assembler": "sizeof(struct rho_scan_assembler)",
+    "passive": "RHO_NODE_HAS_PASSIVE * sizeof(struct rho_passive)",
+    "frames": "RHO_NODE_HAS_BEARINGS * sizeof(struct rho_frames)",
+    "zones": "(RHO_MAX_ZONES > 0) * sizeof(struct rho_zones)",
 }
 LEAST = 512 # bytes from which a part is listed
 
@@ -171,10 +182,19 @@ class LinkedProgram:
             if RAM.match(section):
                 name = section.split(".")[-1]
                 name = CALLED.get(name, name)
+                if name == "node":
+                    size = self.add_parts_of_node(size)
                 known = name in PARTS or name in WHOLE
                 self.add_bytes(self.ram, name if known else "buffers, counters", size)
         if not self.flash:
             exit_with_error(f"{build.target.command[0]} wrote no map in the form of GNU's ld")
+
+    def add_parts_of_node(self, size):
+        """Adds the parts of a node as objects; returns what is left of its size."""
+        for name, part in cross.sizes_of_expressions("own", NODE).items():
+            self.add_bytes(self.ram, name, part)
+            size -= part
+        return size
 
     @staticmethod
     def add_bytes(table, name, size):

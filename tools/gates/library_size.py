@@ -52,7 +52,7 @@ ROWS = [
     ("snapshot, and the validation of images, likewise", IMAGES, ""),
     ("wire: message, publish, udpm",
      "wire/message* wire/publish* wire/udpm* -wire/message_names", ""),
-    ("node: messages in, steps, messages out, likewise", "wire/node", "node"),
+    ("node: messages in, steps, messages out, likewise", "node/*", "node"),
     ("names of messages and their fields, likewise", "wire/message_names", ""),
     ("scan assembly from messages, two scans open at a time, likewise", "wire/scan_*",
      "scan_assembler"),
@@ -65,7 +65,8 @@ ROWS = [
 AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
      "base/* measurement/* estimation/* association/* window/* initiation/* tracker/* bodies/* "
-     "step/* settings/* wire/* -measurement/bearing_crossing -step/bearing_* -step/paper_starts "
+     "step/* settings/* wire/* node/* -node/node_snapshot -measurement/bearing_crossing "
+     "-step/bearing_* -step/paper_starts "
      "-*_soundness -settings/snapshot -wire/message_names -wire/show*",
      96 * 1024, "initiator tracker scan_assembler report", 176 * 1024, 4096),
 ]

@@ -219,13 +219,13 @@ static unsigned add_clutter_after_target_plots(const struct sky *sky, unsigned n
 
 static int open_tracker_of_sky(const struct sky *sky)
 {
-    struct rho_tracker_config config;
-    struct rho_initiator_config start;
-    node_settings(&config, &start);
+    struct rho_settings settings;
+    struct rho_node_config config;
+    node_settings(&settings, &config);
     memset(before, 0, sizeof before);
     int is_open =
-        rho_tracker_init(&tracker, sizeof tracker, &config) == RHO_OK &&
-        rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK &&
+        rho_tracker_init(&tracker, sizeof tracker, &config.tracker) == RHO_OK &&
+        rho_initiator_init(&initiator, sizeof initiator, &config.initiator) == RHO_OK &&
         (NODE_BODY_MAX_M <= 0.0f || rho_tracker_set_body_max(&tracker, NODE_BODY_MAX_M) == RHO_OK);
     for (unsigned i = 0; i < gene_as_whole_number(sky, SENSORS) && i < RHO_MAX_SENSORS && is_open;
          i++) {

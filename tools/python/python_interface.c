@@ -927,11 +927,11 @@ struct program_pipeline *program_pipeline_new(const struct parameters *settings,
     made->settings = copy_placed_settings(settings, NULL, 0);
     made->pipeline = must_alloc(sizeof *made->pipeline);
     *made->pipeline = pipeline_allocate();
-    made->tracker = made->pipeline->tracker;
-    made->report = made->pipeline->report;
+    made->tracker = &made->pipeline->node->tracker;
+    made->report = &made->pipeline->node->report;
     made->tracks.has_covariances = has_covariances;
     pipeline_open(made->pipeline, made->settings);
-    made->learning = made->pipeline->learning;
+    made->learning = pipeline_learning(made->pipeline);
     return made;
 }
 
@@ -1008,7 +1008,7 @@ static void open_pipeline_for_scans(struct program_pipeline *made,
             pipeline_open(made->pipeline, made->settings);
         }
     }
-    if (has_bearings && !made->pipeline->passive) {
+    if (has_bearings && !made->pipeline->has_bearings) {
         pipeline_open_passive(made->pipeline, made->settings);
     }
     if (has_bearings) {
@@ -1032,7 +1032,9 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
                 set_sensor_of_tracker(made, &scan->sensor);
             }
             pipeline_step(made->pipeline, &scan->scan);
-            made->min_scans = made->pipeline->initiator->min_scans;
+            made->min_scans =
+                rho_node_window(made->pipeline->node, made->pipeline->node->windows.newest)
+                    ->min_scans;
         }
         if (collects_tracks) {
             add_tracks_of_report(&made->tracks, made->report, made->tracker);

@@ -38,7 +38,7 @@ struct tracking {
 /* Gives a sensor's description to the tracker; called before each of its scans, as it may move. */
 static void set_sensor_of_tracker(struct tracking *tracking, const struct rho_sensor *sensor)
 {
-    enum rho_status status = rho_tracker_set_sensor(tracking->pipeline.tracker, sensor);
+    enum rho_status status = rho_tracker_set_sensor(&tracking->pipeline.node->tracker, sensor);
 
     if (status == RHO_ERROR_CAPACITY) {
         fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
@@ -62,7 +62,7 @@ static void check_and_set_passive_sensors(struct tracking *tracking,
         struct parameters customary = *parameters;
 
         method_suggest_parameters(METHOD_PASSIVE, &customary);
-        bearing_sensors_check(sensors, count, &tracking->pipeline.passive->batch, &customary);
+        bearing_sensors_check(sensors, count, &tracking->pipeline.node->passive.batch, &customary);
     }
     for (size_t i = 0; i < count; i++) {
         struct rho_sensor sensor;
@@ -114,14 +114,14 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
                                  struct tracks_output *tracks)
 {
     step_and_time_input(tracking, input);
-    if (tracking->pipeline.zones) {
-        zone_events_output_write(&tracking->zones, tracking->pipeline.zones);
+    if (pipeline_zones(&tracking->pipeline)) {
+        zone_events_output_write(&tracking->zones, pipeline_zones(&tracking->pipeline));
     }
     if (tracks) {
-        tracks_output_write_report(tracks, tracking->pipeline.report);
+        tracks_output_write_report(tracks, &tracking->pipeline.node->report);
     }
     if (tracking->show) {
-        struct shown shown = {tracks, tracking->pipeline.report->time_us};
+        struct shown shown = {tracks, tracking->pipeline.node->report.time_us};
         const struct pipeline_show_output output = {&shown, write_show_message};
 
         pipeline_show_step(tracking->show, &tracking->pipeline, input->frame != NULL,
@@ -198,7 +198,7 @@ static const char *track_growing_file(struct tracking *tracking, struct merged_i
 
     while (!is_stopped) {
         (void)clutter_map_file_save_if_due(&tracking->clutter,
-                                           &tracking->pipeline.tracker->clutter_map);
+                                           &tracking->pipeline.node->tracker.clutter_map);
         why = plot_reader_why_not_followed(
             reader); /* rows added before the file ended are still read */
         if (step_complete_scans(tracking, inputs, tracks) ||
@@ -272,8 +272,8 @@ static void print_summary(const struct tracking *tracking,
                           const struct merged_inputs_counts *counts,
                           const struct parameters *parameters)
 {
-    const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
-    const struct rho_tracker_work *work = &tracking->pipeline.tracker->work;
+    const struct rho_tracker_counters *counters = &tracking->pipeline.node->tracker.counters;
+    const struct rho_tracker_work *work = &tracking->pipeline.node->tracker.work;
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots, %" PRIu32 " tracks confirmed; lost: "
@@ -293,13 +293,15 @@ static void print_summary(const struct tracking *tracking,
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
-    for (uint32_t i = 0; i < tracking->pipeline.tracker->num_rows; i++) {
-        if (tracking->pipeline.tracker->sensors[i].look.is_suspect) {
+    const struct rho_tracker *tracker = &tracking->pipeline.node->tracker;
+    for (uint32_t i = 0; i < tracker->num_rows; i++) {
+        if (tracker->sensors[i].look.is_suspect) {
             fprintf(stderr, ", sensor %" PRId32 " contradicts the others",
-                    tracking->pipeline.tracker->sensors[i].sensor.sensor_id);
+                    tracker->sensors[i].sensor.sensor_id);
         }
     }
-    learned_report_print(tracking->pipeline.tracker, tracking->pipeline.learning, stderr);
+    learned_report_print(&tracking->pipeline.node->tracker, pipeline_learning(&tracking->pipeline),
+                         stderr);
     if (work->partial_steps > 0) {
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
@@ -385,11 +387,11 @@ static cJSON *origin_json(const struct parameters *parameters)
 static size_t state_memory_bytes(const struct tracking *tracking,
                                  const struct merged_inputs *inputs)
 {
-    return sizeof *tracking->pipeline.tracker +
+    return sizeof tracking->pipeline.node->tracker +
            (merged_inputs_have_plots(inputs)
-                ? tracking->pipeline.num_initiators * sizeof *tracking->pipeline.initiator
+                ? tracking->pipeline.node->windows.count * sizeof(struct rho_initiator)
                 : 0) +
-           (merged_inputs_have_bearings(inputs) ? sizeof *tracking->pipeline.passive : 0);
+           (merged_inputs_have_bearings(inputs) ? sizeof tracking->pipeline.node->passive : 0);
 }
 
 /* Number of known echoes in the clutter map. */
@@ -408,7 +410,7 @@ static void print_run_json(const struct tracking *tracking, const struct merged_
                            const struct merged_inputs_counts *counts,
                            const struct parameters *parameters)
 {
-    const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
+    const struct rho_tracker_counters *counters = &tracking->pipeline.node->tracker.counters;
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddNumberToObject(object, "scans", (double)counts->steps);
@@ -421,20 +423,21 @@ static void print_run_json(const struct tracking *tracking, const struct merged_
     cJSON_AddNumberToObject(object, "mean_us", mean_step_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
     cJSON_AddNumberToObject(object, "state_bytes", (double)state_memory_bytes(tracking, inputs));
-    json_add_work(object, &tracking->pipeline.tracker->work);
-    cJSON_AddItemToObject(object, "counters", counters_json(tracking->pipeline.tracker));
+    json_add_work(object, &tracking->pipeline.node->tracker.work);
+    cJSON_AddItemToObject(object, "counters", counters_json(&tracking->pipeline.node->tracker));
     cJSON_AddNumberToObject(object, "echoes_known",
-                            count_known_echoes(&tracking->pipeline.tracker->clutter_map));
-    cJSON_AddItemToObject(object, "sensors", sensor_health_json(tracking->pipeline.tracker));
+                            count_known_echoes(&tracking->pipeline.node->tracker.clutter_map));
+    cJSON_AddItemToObject(object, "sensors", sensor_health_json(&tracking->pipeline.node->tracker));
     cJSON_AddItemToObject(object, "learned",
-                          learned_report_sensors_json(tracking->pipeline.tracker));
-    if (learned_report_num_walls(tracking->pipeline.learning) > 0) {
+                          learned_report_sensors_json(&tracking->pipeline.node->tracker));
+    if (learned_report_num_walls(pipeline_learning(&tracking->pipeline)) > 0) {
         cJSON_AddItemToObject(object, "learned_reflectors",
-                              learned_report_walls_json(tracking->pipeline.learning));
+                              learned_report_walls_json(pipeline_learning(&tracking->pipeline)));
     }
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
-    if (tracking->pipeline.zones) {
-        cJSON_AddItemToObject(object, "zones", zones_counts_json(tracking->pipeline.zones));
+    if (pipeline_zones(&tracking->pipeline)) {
+        cJSON_AddItemToObject(object, "zones",
+                              zones_counts_json(pipeline_zones(&tracking->pipeline)));
     }
     json_print_and_delete(object);
 }
@@ -498,12 +501,12 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
     struct merged_inputs_counts counts = merged_inputs_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
-    if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
-        no_tracks_reason_print(&tracking->seen, tracking->pipeline.tracker, &line->parameters,
-                               stderr);
+    if (tracking->pipeline.node->tracker.counters.tracks_confirmed == 0 && counts.frames == 0) {
+        no_tracks_reason_print(&tracking->seen, &tracking->pipeline.node->tracker,
+                               &line->parameters, stderr);
     }
-    if (tracking->pipeline.zones) {
-        zones_print_counts(tracking->pipeline.zones);
+    if (pipeline_zones(&tracking->pipeline)) {
+        zones_print_counts(pipeline_zones(&tracking->pipeline));
     }
     if (line->json) {
         print_run_json(tracking, inputs, &counts, &line->parameters);
@@ -554,10 +557,10 @@ int command_track(struct command_line *line)
     inputs = open_inputs(line);
     open_pipeline(&tracking, inputs, &line->parameters);
     tracking.clutter = clutter_map_file_open(line->clutter_map, &line->parameters,
-                                             &tracking.pipeline.tracker->clutter_map);
+                                             &tracking.pipeline.node->tracker.clutter_map);
     tracks = open_tracks_output(line);
     if (tracks && line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0) {
-        tracks_output_add_body_columns(tracks, tracking.pipeline.tracker);
+        tracks_output_add_body_columns(tracks, &tracking.pipeline.node->tracker);
     }
     tracking.zones = open_zone_events_output(line);
     if (line->follow) {
@@ -568,9 +571,10 @@ int command_track(struct command_line *line)
     }
     tracks_output_close(tracks);
     zone_events_output_close(&tracking.zones);
-    is_saved = clutter_map_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
+    is_saved =
+        clutter_map_file_save(&tracking.clutter, &tracking.pipeline.node->tracker.clutter_map);
     print_summary_zones_and_json(&tracking, inputs, line);
-    has_tracks = tracking.pipeline.tracker->counters.tracks_confirmed > 0;
+    has_tracks = tracking.pipeline.node->tracker.counters.tracks_confirmed > 0;
     merged_inputs_close(inputs);
     pipeline_show_close(tracking.show);
     pipeline_free(&tracking.pipeline);

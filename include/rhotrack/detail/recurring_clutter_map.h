@@ -182,6 +182,12 @@ float rho_clutter_map_return_probability(const struct rho_clutter_map *map, unsi
                                          unsigned hits, unsigned unseen);
 
 /*
+ * Keeps standing known echoes, as if they were taught, and the statistics, and forgets the other
+ * echoes: after a change of the sensors' clock. Cost: RHO_MAX_ECHOES. Stack: 160 bytes.
+ */
+void rho_clutter_map_restart(struct rho_clutter_map *map);
+
+/*
  * True where a map of unknown origin (a snapshot) is consistent. rho_tracker_is_sound calls it.
  * Cost: RHO_MAX_ECHOES.
  */

@@ -376,6 +376,44 @@ static void a_taught_map_suppresses_towers_from_the_first_scan(void **state)
     assert_int_equal(rows, 0);
 }
 
+/* After a change of the clock a map is as an empty one that was taught what it had learned. */
+static void a_restarted_map_is_as_one_taught_anew(void **state)
+{
+    static struct rho_clutter_map taught, standing;
+    struct rho_clutter_map *map = clutter_map();
+    int turn = 0;
+
+    (void)state;
+    start_tracker_with_radar(60, 30.0f);
+    (void)run_turns(&turn, 100, 0.5, 10);
+    standing = *map;
+    for (int i = 0; i < RHO_ECHO_PLACES; i++) {
+        standing.echoes[i].hits *= (uint16_t)rho_clutter_map_is_echo_standing(&standing.echoes[i]);
+    }
+    start_tracker_with_radar(60, 30.0f);
+    taught = *map;
+    teach_learned_map(&taught, &standing);
+    *map = standing;
+    rho_clutter_map_restart(map);
+    assert_true(count_known_echoes(map) >= TOWERS);
+    assert_int_equal(count_known_echoes(map), count_known_echoes(&taught));
+    assert_memory_equal(map->tables, taught.tables, sizeof taught.tables);
+    for (int i = 0; i < RHO_ECHO_PLACES; i++) {
+        const struct rho_echo *one = &map->echoes[i], *other = &taught.echoes[i];
+
+        assert_int_equal(one->hits, other->hits);
+        assert_int_equal(one->plot, other->plot);
+        assert_int_equal(one->region, other->region);
+        assert_true(one->time_us == other->time_us);
+        assert_true(fabsf(one->x_m - other->x_m) + fabsf(one->y_m - other->y_m) <= 0.0f);
+        assert_true(fabsf(one->along[0] - other->along[0]) <= 1e-6f * other->along[0]);
+        assert_true(one->along[2] <= 0.0f);
+    }
+    assert_true(rho_clutter_map_is_sound(map));
+    run_turns(&turn, 20, 0.5, 10);
+    assert_int_equal(count_known_towers(), TOWERS);
+}
+
 static void towers_taught_by_hand_start_no_tracks(void **state)
 {
     int turn = 0, rows = 0;
@@ -781,6 +819,7 @@ int main(void)
         cmocka_unit_test(plots_of_a_tracked_target_teach_nothing),
         cmocka_unit_test(a_slow_target_has_moved_after_eight_standard_deviations),
         cmocka_unit_test(a_taught_map_suppresses_towers_from_the_first_scan),
+        cmocka_unit_test(a_restarted_map_is_as_one_taught_anew),
         cmocka_unit_test(towers_taught_by_hand_start_no_tracks),
         cmocka_unit_test(taught_echoes_that_are_not_there_are_forgotten),
         cmocka_unit_test(echoes_outside_all_coverage_are_kept),

@@ -479,6 +479,9 @@ static void test_the_parts_of_an_image_are_listed(void **state)
     assert_int_equal(parts[2].kind, RHO_SNAPSHOT_INITIATOR);
     assert_int_equal(parts[2].id, 1);
     assert_int_equal(parts[2].size, sizeof(struct rho_initiator));
+    assert_int_equal(rho_snapshot_offset(parts, 4, 0), 24 + 4 * 16);
+    assert_memory_equal(image + rho_snapshot_offset(parts, 4, 2), &chain.initiators[1],
+                        sizeof chain.initiators[1]);
     assert_int_equal(rho_snapshot_list(image, image_bytes, parts, 3, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_snapshot_list(image, image_bytes - 1, parts, 3, &num_parts),
                      RHO_ERROR_SHORT);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Settings changed while tracking: tracks go on, and each field applies when settings.h says. */
+#include "rhotrack/operator.h"
 #include "rhotrack/settings.h"
 #include "tracker_setup.h"
 
@@ -143,6 +144,33 @@ static void refused_settings_change_nothing(void **state)
     assert_int_equal(rho_tracker_reconfigure(&tracker, &config), RHO_ERROR_STATE);
 }
 
+/* The sensors' clock was set: tracks and sensors go, what has no time stays. */
+static void a_restart_drops_tracks_and_keeps_settings(void **state)
+{
+    const struct rho_extent area = {1e3f, 2e3f, 1e3f, 2e3f};
+    static struct rho_tracker empty;
+
+    (void)state;
+    assert_int_equal(rho_tracker_restart(NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_restart(&empty), RHO_ERROR_STATE);
+    start_tracker();
+    if (RHO_MAX_EXCLUDED_AREAS > 0) {
+        assert_int_equal(rho_tracker_exclude_area(&tracker, &area), RHO_OK);
+    }
+    memcpy(&before, &tracker, sizeof before);
+    assert_int_equal(rho_tracker_restart(&tracker), RHO_OK);
+    assert_true(before.num_tracks > 0);
+    assert_int_equal(tracker.num_tracks, 0);
+    assert_int_equal(tracker.num_sensors, 0);
+    assert_int_equal(tracker.has_time, 0);
+    assert_memory_equal(&tracker.config, &before.config, sizeof before.config);
+    assert_memory_equal(&tracker.counters, &before.counters, sizeof before.counters);
+    assert_memory_equal(&tracker.work, &before.work, sizeof before.work);
+    assert_memory_equal(&tracker.excluded, &before.excluded, sizeof before.excluded);
+    assert_int_equal(tracker.num_excluded, before.num_excluded);
+    assert_true(rho_tracker_is_sound(&tracker));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -150,6 +178,7 @@ int main(void)
         cmocka_unit_test(a_raised_acceleration_limit_applies_from_the_next_step),
         cmocka_unit_test(changed_end_rules_apply_from_the_next_step),
         cmocka_unit_test(refused_settings_change_nothing),
+        cmocka_unit_test(a_restart_drops_tracks_and_keeps_settings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -149,21 +149,25 @@ static void bad_arguments_of_publishing_are_refused(void **state)
 
 static void the_node_sends_bodies_after_tracks_and_peaks(void **state)
 {
-    static struct rho_scan_assembler assembler;
     static struct rho_node node;
-    struct rho_scan_assembler_config assemble;
-    const struct rho_node_config config = {
-        .assembler = &assembler, .tracker = &tracker, .report = &report, .epoch = 5};
+    struct rho_node_config config;
+    struct rho_settings settings;
     uint8_t buffer[RHO_UDPM_MAX_DATAGRAM];
     size_t size;
 
     (void)state;
-    rho_scan_assembler_config_default(&assemble);
-    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &assemble), RHO_OK);
+    rho_settings_default(&settings);
     for (int has_bodies = 0; has_bodies < RHO_BODIES + 1; has_bodies++) {
-        start_tracker(has_bodies ? 12.0f : 0.0f);
-        assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
+        rho_node_config_default(&config, &settings);
+        config.epoch = 5;
+        config.body_max_m = has_bodies ? 12.0f : 0.0f;
+        start_tracker(config.body_max_m);
+        assert_int_equal(rho_node_init(&node, sizeof node, &settings), RHO_OK);
+        assert_int_equal(rho_node_configure(&node, &config), RHO_OK);
         track_vehicles(2, 3);
+        node.tracker = tracker;
+        node.report = report;
+        node.done = RHO_NODE_SCAN;
         assert_int_equal(rho_node_num_messages(&node),
                          rho_publish_num_parts(&report) + 1 + has_bodies);
         const uint16_t peaks = rho_publish_num_parts(&report);
@@ -172,9 +176,9 @@ static void the_node_sends_bodies_after_tracks_and_peaks(void **state)
         if (has_bodies) {
             assert_string_equal(rho_node_channel(&node, (uint16_t)(peaks + 1)),
                                 RHO_MESSAGE_BODY_LIST_CHANNEL);
-            assert_int_equal(rho_node_publish(&node, &initiator, (uint16_t)(peaks + 1), buffer,
-                                              sizeof buffer, &size),
-                             RHO_OK);
+            assert_int_equal(
+                rho_node_publish(&node, (uint16_t)(peaks + 1), buffer, sizeof buffer, &size),
+                RHO_OK);
             assert_int_equal(rho_message_body_list_decode(buffer, size, &list), RHO_OK);
             assert_int_equal(list.num_bodies, 2);
             assert_int_equal(list.epoch, 5);

@@ -24,8 +24,8 @@ int main(void)
 {
     struct node_config config;
     node_config_default(&config);
-    config.send = discard_datagram;
-    config.clock_us = zero_clock_us;
+    config.hooks.send = discard_datagram;
+    config.hooks.clock_us = zero_clock_us;
     if (node_start(&config) != RHO_OK) {
         return 1;
     }

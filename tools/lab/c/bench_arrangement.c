@@ -124,7 +124,7 @@ static void open_pipeline_for_sky(struct pipeline *chain, const struct sky *sky)
     struct parameters parameters;
     parameters_set_defaults(&parameters);
     pipeline_open(chain, &parameters);
-    (void)!rho_tracker_set_sensor(chain->tracker, &sensor);
+    (void)!rho_tracker_set_sensor(&chain->node->tracker, &sensor);
 }
 
 /* The median and the longest time of a scan; each scan counts with its fastest round. */
@@ -150,7 +150,7 @@ static struct times time_scans_of_sky(const struct sky *sky, struct pipeline *ch
             us[i] = fmin(us[i], (double)(monotonic_clock_us() - start_us));
         }
     }
-    struct times times = {.partial = chain->tracker->work.partial_steps};
+    struct times times = {.partial = chain->node->tracker.work.partial_steps};
     qsort(us + WARM_UP, SCANS - WARM_UP, sizeof us[0], compare_numbers);
     times.median_us = us[WARM_UP + (SCANS - WARM_UP) / 2];
     qsort(us, SCANS, sizeof us[0], compare_numbers);

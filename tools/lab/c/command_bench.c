@@ -208,7 +208,7 @@ static struct cost time_pipeline_on_recording(struct pipeline *chain,
         cost.mean_us += us / (double)recording->count;
         cost.worst_us = fmax(cost.worst_us, us);
     }
-    cost.tracks = chain->tracker->counters.tracks_confirmed;
+    cost.tracks = chain->node->tracker.counters.tracks_confirmed;
     return cost;
 }
 

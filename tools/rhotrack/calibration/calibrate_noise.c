@@ -482,7 +482,7 @@ static void estimate_radar(struct register_data *data, size_t radar_number,
     out->area_km2 = covered_area_km2(radar, out->is_isotropic);
     out->figures[CALIBRATE_TURN] = estimate_turn_time(&turns);
     out->figures[CALIBRATE_CLUTTER] = estimate_clutter(data, radar_number, &turns);
-    out->figures[CALIBRATE_PD] = pd_by_learned_looks(&pipeline->tracker->sensors[0].learned);
+    out->figures[CALIBRATE_PD] = pd_by_learned_looks(&pipeline->node->tracker.sensors[0].learned);
     find_speed_extremes(&segments, &out->figures[CALIBRATE_FASTEST],
                         &out->figures[CALIBRATE_SLOWEST]);
     find_innovations(data, radar_number, out, stated);

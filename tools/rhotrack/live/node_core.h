@@ -56,14 +56,6 @@ void node_core_set_show(struct node_core *core, struct pipeline_show *show);
 /* Accepts an operator's messages on RHO_COMMANDS and RHO_SETTINGS from now on. */
 void node_core_allow_commands(struct node_core *core);
 
-/* Counts of an operator's commands and settings. */
-struct node_core_commands {
-    uint64_t done, refused; /* answered commands */
-    uint64_t bad;           /* messages that cannot be decoded */
-    uint64_t not_allowed;   /* commands received while the node accepts none */
-};
-const struct node_core_commands *node_core_command_counts(const struct node_core *core);
-
 /* Messages of --show that its rate limits left out. */
 uint64_t node_core_num_show_left_out(const struct node_core *core);
 

@@ -11,7 +11,7 @@ static void collect_tallies(const struct node_core *core, const struct transport
                             struct node_loss_counts tallies[MESSAGE_TALLIES])
 {
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
-    const struct node_core_commands *commands = node_core_command_counts(core);
+    const struct rho_node_counters *own = node_core_node_counters(core);
     const struct transport_counters network = transport_counters(transport);
     const struct node_loss_counts all[MESSAGE_TALLIES] = {
         {"datagrams refused (fragments, or no LCM)", network.refused, NODE_TALLY_FAULT, false},
@@ -28,11 +28,11 @@ static void collect_tallies(const struct node_core *core, const struct transport
         {"messages of sensors that are not in sensors_allowed", assembler->messages_not_allowed,
          NODE_TALLY_FAULT, true},
         {"messages of too many sensors", assembler->sensors_no_room, NODE_TALLY_FAULT, true},
-        {"commands not taken: the node runs without --commands", commands->not_allowed,
+        {"commands not taken: the node runs without --commands", own->commands_not_allowed,
          NODE_TALLY_FAULT, false},
-        {"commands bad", commands->bad, NODE_TALLY_FAULT, false},
-        {"commands refused", commands->refused, NODE_TALLY_FAULT, false},
-        {"commands done", commands->done, NODE_TALLY_USUAL, false},
+        {"commands bad", own->commands_bad, NODE_TALLY_FAULT, false},
+        {"commands refused", own->commands_refused, NODE_TALLY_FAULT, false},
+        {"commands done", own->commands_done, NODE_TALLY_USUAL, false},
     };
 
     memcpy(tallies, all, sizeof all);

@@ -1,53 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * pipeline: the library's objects from scans to tracks (initiators, tracker, zones) in allocated
- * memory.
- */
+/* pipeline: the library's node (rhotrack/node.h), in allocated memory and with parameters. */
 #ifndef RHOTRACK_TOOL_PIPELINE_H
 #define RHOTRACK_TOOL_PIPELINE_H
 
-#include "rhotrack/paper_starts.h"
-#include "rhotrack/reflectors.h"
-#include "rhotrack/zones.h"
+#include "rhotrack/node.h"
 #include "settings/parameters.h"
 
-/* Values of the parameter initiators: which sensors share an initiation window. */
-enum { INITIATORS_PAIRS, INITIATORS_SENSOR, INITIATORS_ONE };
-
-/* The initiator of one window, named by a sensor (pipeline_window_sensor_id). */
-struct pipeline_initiator {
-    int32_t sensor_id;
-    struct rho_initiator *initiator;
+/* Values of the parameter initiators: enum rho_node_windows. */
+enum {
+    INITIATORS_PAIRS = RHO_NODE_PAIRS,
+    INITIATORS_SENSOR = RHO_NODE_SINGLE,
+    INITIATORS_ONE = RHO_NODE_ONE
 };
 
 struct pipeline {
-    struct rho_initiator *initiator; /* initiator of the newest scan */
-    /*
-     * one initiator a window, in order of first use; the last of 257 is of all further sensors; a
-     * single one for INITIATORS_ONE
-     */
-    struct pipeline_initiator *initiators;
-    size_t num_initiators, num_allocated, capacity;
-    bool has_one_initiator, has_pairs, has_sensor;
-    /* live input, where strangers may send; set before pipeline_open */
+    struct rho_node *node;
+    struct rho_initiator **storage; /* further initiation windows of the node */
+    size_t num_storage, storage_room;
+    /* live input, where strangers may send; set before pipeline_open, with the two below */
     bool is_live;
-    int32_t named[RHO_MAX_SENSORS]; /* sensors that the parameters mention */
-    size_t num_named;
-    struct rho_initiator_config start;
-    bool is_told;
-    struct rho_settings told, settings; /* settings at the first pipeline_open, and current ones */
-    /* initiation from bearings; NULL before pipeline_open_passive */
-    struct rho_passive *passive;
-    /*
-     * the papers' methods for plots and for bearings; NULL where the parameters do not choose them
-     */
-    struct rho_paper_starts *starts;
-    struct rho_passive_paper *paper;
-    struct rho_zones *zones;                 /* NULL: the parameters define no zones */
-    struct rho_reflector_learning *learning; /* learning of walls; NULL: switched off */
-    struct rho_tracker *tracker;
-    struct rho_report *report;
-    struct rho_plot *plots; /* RHO_MAX_PLOTS, memory for the caller's scans */
+    int32_t epoch;
+    bool takes_commands;
+    bool is_open, has_bearings; /* pipeline_open and pipeline_open_passive were called */
+    struct rho_plot *plots;     /* RHO_MAX_PLOTS, memory for the caller's scans */
 };
 
 struct pipeline pipeline_allocate(void);
@@ -66,37 +41,11 @@ struct pipeline_options {
 void pipeline_options_to_parameters(struct parameters *parameters,
                                     const struct pipeline_options *options);
 
-/* Initialises all objects for a first scan; tracks of an earlier run are dropped. */
+/* Prepares the node for a first scan; tracks of an earlier run are dropped, zones are kept. */
 void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters);
 
 /* Initialises the initiation of tracks from bearings; after pipeline_open. */
 void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters);
-
-/*
- * The initiator of a window, added where it is new and not one of too many; it becomes
- * pipeline->initiator.
- */
-struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, int32_t sensor_id);
-
-/*
- * The sensor that names the window of a scan: the scan's own sensor, or a sensor described before
- * it that shares its window.
- */
-int32_t pipeline_window_sensor_id(const struct pipeline *pipeline, const struct rho_scan *scan);
-
-/* The initiator for a scan's plots; call after the sensor was described, before the scan's step. */
-struct rho_initiator *pipeline_initiator_of_sensor(struct pipeline *pipeline,
-                                                   const struct rho_scan *scan);
-
-/* Drops the batch of bearings of passive-paper, after a change of the clock. */
-void pipeline_reopen_passive_paper(struct pipeline *pipeline);
-
-/*
- * Starts tracks by the papers' methods, after a step of the tracker without an initiator. Either
- * scan or frame is NULL. Does nothing where the parameters choose the default methods.
- */
-void pipeline_start_paper_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
-                                 const struct rho_frame *frame);
 
 /*
  * Applies other parameters from the next step on; tracks and learned values are kept. Initiation
@@ -104,14 +53,26 @@ void pipeline_start_paper_tracks(struct pipeline *pipeline, const struct rho_sca
  */
 void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *parameters);
 
-/* Learns walls from a scan, after its step and track starts. */
-void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan);
+/* Gives the node storage for this number of further windows. */
+void pipeline_add_storage(struct pipeline *pipeline, unsigned num_windows);
 
-/* Updates the zones' counts by the tracks, after a step and its track starts. */
-void pipeline_count_tracks_in_zones(struct pipeline *pipeline);
+/* Gives the node storage for the window of one more radar, if it wants some; before each step. */
+void pipeline_give_storage(struct pipeline *pipeline);
 
-/* Steps a scan, or a frame of bearings, completely; the result is in pipeline->report. */
+/*
+ * Says once on standard error that radars share a window for want of further ones; after each step.
+ */
+void pipeline_warn_shared_windows(const struct pipeline *pipeline, uint32_t shared_before,
+                                  int32_t sensor_id);
+
+/* Steps a scan, or a frame of bearings, completely; the result is in node->report. */
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);
 void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame);
+
+/* The node's zones, learning of walls and method for bearings; NULL where there are none. */
+const struct rho_zones *pipeline_zones(const struct pipeline *pipeline);
+const struct rho_reflector_learning *pipeline_learning(const struct pipeline *pipeline);
+struct rho_paper_starts *pipeline_paper_starts(const struct pipeline *pipeline);
+struct rho_passive_paper *pipeline_passive_paper(const struct pipeline *pipeline);
 
 #endif

@@ -84,10 +84,10 @@ void pipeline_show_step(struct pipeline_show *show, struct pipeline *pipeline, b
                         const struct pipeline_show_output *output)
 {
     const struct rho_show_source source = {
-        .tracker = pipeline->tracker,
-        .report = pipeline->report,
-        .starts = is_frame ? NULL : pipeline->starts,
-        .paper = is_frame ? pipeline->paper : NULL,
+        .tracker = &pipeline->node->tracker,
+        .report = &pipeline->node->report,
+        .starts = is_frame ? NULL : pipeline_paper_starts(pipeline),
+        .paper = is_frame ? pipeline_passive_paper(pipeline) : NULL,
         .step = step,
         .epoch = epoch,
     };

@@ -13,59 +13,6 @@
 /* size of a write */
 #define PIECE_BYTES 65536
 
-/* Identifier of the tracker's part: how sensors share the initiators of the snapshot. */
-enum { OF_NOBODY, OF_SENSORS, OF_ALL, OF_PAIRS };
-
-/*
- * Number of parts besides initiators: tracker, passive, two settings; learned walls are optional.
- */
-enum { OTHERS = 4 };
-
-/* Identifiers of the settings' parts: as at the start, and as changed by operators. */
-enum { SETTINGS_TOLD, SETTINGS_NOW };
-
-/* The code of how sensors share initiators, stored as the identifier of the tracker's part. */
-static int32_t initiator_sharing_code(const struct pipeline *pipeline)
-{
-    return pipeline->has_one_initiator ? OF_ALL
-           : !pipeline->has_sensor     ? OF_NOBODY
-           : pipeline->has_pairs       ? OF_PAIRS
-                                       : OF_SENSORS;
-}
-
-/*
- * Lists the parts of a snapshot, in new memory: tracker, initiators, passive, both settings,
- * learned walls.
- */
-static struct rho_snapshot_part *list_snapshot_parts(struct pipeline *pipeline, unsigned *num_parts)
-{
-    struct rho_snapshot_part *parts =
-        must_calloc(pipeline->num_initiators + OTHERS + 1, sizeof *parts);
-    unsigned count = 0;
-
-    parts[count++] =
-        (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiator_sharing_code(pipeline),
-                                   pipeline->tracker, sizeof *pipeline->tracker};
-    for (size_t i = 0; i < pipeline->num_initiators; i++) {
-        const struct pipeline_initiator *of = &pipeline->initiators[i];
-
-        parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_INITIATOR, of->sensor_id,
-                                                    of->initiator, sizeof *of->initiator};
-    }
-    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_PASSIVE, 0, pipeline->passive,
-                                                sizeof *pipeline->passive};
-    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_SETTINGS, SETTINGS_TOLD,
-                                                &pipeline->told, sizeof pipeline->told};
-    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_SETTINGS, SETTINGS_NOW,
-                                                &pipeline->settings, sizeof pipeline->settings};
-    if (pipeline->learning) {
-        parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_REFLECTORS, 0, pipeline->learning,
-                                                    sizeof *pipeline->learning};
-    }
-    *num_parts = count;
-    return parts;
-}
-
 /* ---- Save ---- */
 
 static bool write_all_bytes(int file, const uint8_t *bytes, size_t size)
@@ -103,8 +50,8 @@ static bool write_snapshot_to_disk(int file, const struct rho_snapshot_part *par
 
 bool pipeline_save_snapshot(struct pipeline *pipeline, const char *path)
 {
-    unsigned num_parts;
-    struct rho_snapshot_part *parts = list_snapshot_parts(pipeline, &num_parts);
+    struct rho_snapshot_part *parts = must_calloc(RHO_NODE_PARTS, sizeof *parts);
+    const unsigned num_parts = rho_node_list_parts(pipeline->node, parts);
     size_t room = strlen(path) + sizeof ".part";
     char *beside = must_alloc(room);
     bool is_saved = false;
@@ -171,63 +118,43 @@ static const char *snapshot_refusal_reason(enum rho_status status)
         return "a snapshot of another version";
     case RHO_ERROR_SIZE:
         return "a snapshot of another build";
+    case RHO_ERROR_CONFIG:
+    case RHO_ERROR_CAPACITY:
+        return "a snapshot with other parameters";
     default:
         return "the snapshot is damaged";
     }
 }
 
-/*
- * Adds the initiators that a snapshot has; false where a pipeline with these parameters cannot have
- * them.
- */
-static bool add_missing_initiators(struct pipeline *pipeline, const struct rho_snapshot_part *parts,
-                                   unsigned num_parts)
+/* A node with the parameters as they were told and then changed, and room for the windows. */
+static struct pipeline open_fresh_pipeline(const struct pipeline *pipeline,
+                                           const struct parameters *parameters,
+                                           const struct parameters *changed, unsigned num_windows)
 {
-    const unsigned others = OTHERS + (pipeline->learning ? 1 : 0);
-    const bool has_sensors = parts[0].id == OF_SENSORS || parts[0].id == OF_PAIRS;
+    struct pipeline fresh = pipeline_allocate();
 
-    for (unsigned i = 1; i + others <= num_parts && has_sensors && !pipeline->has_one_initiator;
-         i++) {
-        (void)pipeline_find_or_add_initiator(pipeline, parts[i].id);
+    fresh.is_live = pipeline->is_live;
+    fresh.epoch = pipeline->epoch;
+    fresh.takes_commands = pipeline->takes_commands;
+    pipeline_open(&fresh, parameters);
+    pipeline_open_passive(&fresh, parameters);
+    pipeline_reconfigure(&fresh, changed);
+    pipeline_add_storage(&fresh, num_windows);
+    return fresh;
+}
+
+/* Number of windows in a snapshot that are not in the node itself. */
+static unsigned num_windows_in_storage(const uint8_t *image, size_t size)
+{
+    struct rho_snapshot_part *parts = must_calloc(RHO_NODE_PARTS, sizeof *parts);
+    unsigned num_parts = 0, num_windows = 0;
+
+    (void)!rho_snapshot_list(image, size, parts, RHO_NODE_PARTS, &num_parts);
+    for (unsigned i = 0; i < num_parts && i < RHO_NODE_PARTS; i++) {
+        num_windows += parts[i].kind == RHO_SNAPSHOT_INITIATOR;
     }
-    return num_parts == pipeline->num_initiators + others &&
-           parts[0].id == initiator_sharing_code(pipeline);
-}
-
-static bool is_same_memory(const void *one, const void *other, size_t size)
-{
-    return memcmp(one, other, size) == 0;
-}
-
-/*
- * Loads a snapshot into an opened pipeline, and takes settings that an operator had changed into
- * the parameters. *is_other: the snapshot was made with other parameters.
- */
-static enum rho_status load_snapshot(struct pipeline *pipeline, struct parameters *parameters,
-                                     const uint8_t *image, size_t size, bool *is_other)
-{
-    const struct rho_passive_config search = pipeline->passive->config;
-    const struct rho_settings told = pipeline->told;
-    struct rho_tracker_config maintain;
-    unsigned num_parts;
-    struct rho_snapshot_part *parts = list_snapshot_parts(pipeline, &num_parts);
-    enum rho_status status = rho_snapshot_load(parts, num_parts, image, size);
-
     free(parts);
-    if (status != RHO_OK) {
-        return status;
-    }
-    *is_other = !is_same_memory(&pipeline->told, &told, sizeof told) ||
-                !parameters_adopt_settings(parameters, &pipeline->settings);
-    parameters_to_tracker(parameters, &maintain);
-    parameters_to_initiator(parameters, &pipeline->start);
-    *is_other |= !is_same_memory(&pipeline->tracker->config, &maintain, sizeof maintain) ||
-                 !is_same_memory(&pipeline->passive->config, &search, sizeof search);
-    for (size_t i = 0; i < pipeline->num_initiators; i++) {
-        *is_other |= !is_same_memory(&pipeline->initiators[i].initiator->config, &pipeline->start,
-                                     sizeof pipeline->start);
-    }
-    return status;
+    return num_windows > 0 ? num_windows - 1 : 0;
 }
 
 static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipeline,
@@ -236,30 +163,24 @@ static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipe
                                                            size_t size)
 {
     struct parameters changed = *parameters;
-    unsigned num_parts = 0;
-    enum rho_status status = rho_snapshot_list(image, size, NULL, 0, &num_parts);
+    struct rho_settings saved;
+    enum rho_status status = rho_node_saved_settings(image, size, &saved);
     struct pipeline fresh;
-    bool is_other;
 
+    if (status == RHO_OK && !parameters_adopt_settings(&changed, &saved)) {
+        status = RHO_ERROR_CONFIG;
+    }
     if (status != RHO_OK) {
         return refuse_snapshot(path, snapshot_refusal_reason(status));
     }
-    struct rho_snapshot_part *parts = must_calloc(num_parts + 1, sizeof *parts);
-    (void)!rho_snapshot_list(image, size, parts, num_parts, &num_parts);
-    fresh = pipeline_allocate();
-    fresh.is_live = pipeline->is_live;
-    memset(fresh.report, 0, sizeof *fresh.report);
-    pipeline_open(&fresh, parameters);
-    pipeline_open_passive(&fresh, parameters);
-    is_other = num_parts < OTHERS + 1 || !add_missing_initiators(&fresh, parts, num_parts);
-    status = is_other ? RHO_OK : load_snapshot(&fresh, &changed, image, size, &is_other);
-    free(parts);
-    if (is_other || status != RHO_OK) {
+    fresh =
+        open_fresh_pipeline(pipeline, parameters, &changed, num_windows_in_storage(image, size));
+    fresh.node->settings = saved; /* parameters may have less digits */
+    status = rho_node_load(fresh.node, image, size);
+    if (status != RHO_OK) {
         pipeline_free(&fresh);
-        return refuse_snapshot(path, is_other ? "a snapshot with other parameters"
-                                              : snapshot_refusal_reason(status));
+        return refuse_snapshot(path, snapshot_refusal_reason(status));
     }
-    fresh.initiator = fresh.initiators[0].initiator;
     pipeline_free(pipeline);
     *pipeline = fresh;
     *parameters = changed;

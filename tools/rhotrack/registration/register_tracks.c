@@ -155,13 +155,13 @@ void register_track_one_radar(struct register_data *data, size_t radar_number,
         qsort(radar->scans, radar->num_scans, sizeof *radar->scans, by_time);
     }
     pipeline_open(pipeline, data->parameters);
-    must_succeed(rho_tracker_set_sensor(pipeline->tracker, &radar->sensor), "sensor");
+    must_succeed(rho_tracker_set_sensor(&pipeline->node->tracker, &radar->sensor), "sensor");
     for (size_t first = 0; first < radar->num_scans;) {
         size_t end = register_find_scan_after_turn(radar, first);
         struct rho_scan turn = turn_as_scan(radar, first, end, rows, pipeline->plots);
 
         pipeline_step(pipeline, &turn);
-        record_reported_tracks(&all, pipeline->report, rows);
+        record_reported_tracks(&all, &pipeline->node->report, rows);
         first = end;
     }
     store_confirmed_tracks(&all);

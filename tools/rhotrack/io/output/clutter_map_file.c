@@ -315,19 +315,6 @@ static bool next_return_counts(const struct rho_clutter_map *map, unsigned *at,
     return false;
 }
 
-void clutter_map_file_copy(struct rho_clutter_map *to, const struct rho_clutter_map *from)
-{
-    struct clutter_echo echo;
-    struct return_counts counts;
-
-    for (uint32_t place = 0; next_standing_echo(from, &place, &echo);) {
-        add_echo_to_map(to, &echo);
-    }
-    for (unsigned at = 0; next_return_counts(from, &at, &counts);) {
-        add_return_counts_to_map(to, &counts);
-    }
-}
-
 static bool write_map(FILE *file, const struct rho_clutter_map *map)
 {
     struct clutter_echo echo;

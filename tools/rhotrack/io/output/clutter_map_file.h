@@ -70,10 +70,4 @@ bool clutter_map_file_is_save_due(const struct clutter_map_file *file);
  */
 bool clutter_map_file_save_if_due(struct clutter_map_file *file, const struct rho_clutter_map *map);
 
-/*
- * Copies the known stationary echoes and the statistics of returns of a map to an empty map, as a
- * file would.
- */
-void clutter_map_file_copy(struct rho_clutter_map *to, const struct rho_clutter_map *from);
-
 #endif

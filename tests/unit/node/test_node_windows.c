@@ -1,35 +1,37 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Which radars start tracks from a common window: two of much the same coverage, in the order in
- * which they were described.
+ * which they were described. And the storage of windows.
  */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
-#include "pipeline/pipeline.h"
+#include "../../src/node/node_parts.h"
+#include "node_senders.h"
 
-#define SECOND_US INT64_C(1000000)
+#define STORED 6
 
-static struct pipeline chain;
+static struct rho_initiator *storage;
 
-static void open_pipeline(double initiators_setting)
+static void open_node(enum rho_node_windows windows)
 {
-    struct parameters parameters;
+    struct rho_node_config config = default_config();
 
-    parameters_set_defaults(&parameters);
-    parameters.value[PARAMETER_INITIATORS] = initiators_setting;
+    config.options.windows = (uint8_t)windows;
+    start_node(&config);
+    assert_int_equal(rho_node_add_storage(&node, storage, rho_node_storage_size(STORED)), RHO_OK);
     for (int32_t id = 1; id <= 7; id++) {
-        char assignment[40];
+        struct rho_scan_assembler_sensor known = node.assembler.config.other;
 
-        snprintf(assignment, sizeof assignment, "sensor.%d.range_max_m=80000", (int)id);
-        parameters_set_assignment(&parameters, assignment);
+        known.sensor.sensor_id = id;
+        known.sensor.range_max_m = 80e3f;
+        assert_int_equal(rho_scan_assembler_set_sensor(&node.assembler, &known), RHO_OK);
     }
-    pipeline_open(&chain, &parameters);
 }
 
 static void describe_sensor(int32_t sensor_id, float x_m, float range_max_m)
@@ -37,32 +39,34 @@ static void describe_sensor(int32_t sensor_id, float x_m, float range_max_m)
     const struct rho_sensor sensor = {
         .sensor_id = sensor_id, .x_m = x_m, .pd = 0.9f, .range_max_m = range_max_m};
 
-    assert_int_equal(rho_tracker_set_sensor(chain.tracker, &sensor), RHO_OK);
+    assert_int_equal(rho_tracker_set_sensor(&node.tracker, &sensor), RHO_OK);
 }
+
+static int is_live; /* scans come as messages */
 
 static struct rho_initiator *initiator_of(int32_t sensor_id)
 {
     const struct rho_scan scan = {.sensor_id = sensor_id};
 
-    return pipeline_initiator_of_sensor(&chain, &scan);
+    return node_windows_find(&node, &scan, is_live);
 }
 
 static void radars_of_the_same_coverage_share_a_window(void **state)
 {
     (void)state;
-    open_pipeline(INITIATORS_PAIRS);
+    open_node(RHO_NODE_PAIRS);
     describe_sensor(7, 0.0f, 80e3f);
     describe_sensor(3, 60e3f, 80e3f);
     struct rho_initiator *first = initiator_of(7);
     assert_ptr_equal(initiator_of(3), first);
     assert_ptr_equal(initiator_of(7), first);
-    assert_int_equal(chain.num_initiators, 1);
+    assert_int_equal(node.windows.count, 1);
 }
 
 static void a_third_radar_shares_a_window_with_the_fourth(void **state)
 {
     (void)state;
-    open_pipeline(INITIATORS_PAIRS);
+    open_node(RHO_NODE_PAIRS);
     for (int32_t id = 1; id <= 3; id++) {
         describe_sensor(id, 0.0f, 80e3f);
     }
@@ -78,18 +82,18 @@ static void a_third_radar_shares_a_window_with_the_fourth(void **state)
 static void radars_of_different_coverage_have_a_window_each(void **state)
 {
     (void)state;
-    open_pipeline(INITIATORS_PAIRS);
+    open_node(RHO_NODE_PAIRS);
     describe_sensor(1, 0.0f, 80e3f);
     describe_sensor(2, 65e3f, 80e3f); /* too far from sensor 1 */
     describe_sensor(3, 0.0f, 40e3f);  /* covers a quarter of sensor 1's area */
     assert_ptr_not_equal(initiator_of(1), initiator_of(2));
     assert_ptr_not_equal(initiator_of(1), initiator_of(3));
     assert_ptr_not_equal(initiator_of(99), initiator_of(1)); /* an undescribed sensor */
-    open_pipeline(INITIATORS_SENSOR);
+    open_node(RHO_NODE_SINGLE);
     describe_sensor(1, 0.0f, 80e3f);
     describe_sensor(2, 0.0f, 80e3f);
     assert_ptr_not_equal(initiator_of(1), initiator_of(2));
-    open_pipeline(INITIATORS_ONE);
+    open_node(RHO_NODE_ONE);
     assert_ptr_equal(initiator_of(1), initiator_of(99));
 }
 
@@ -100,26 +104,25 @@ static void radars_of_different_coverage_have_a_window_each(void **state)
 static void live_sensors_missing_in_the_config_share_no_window(void **state)
 {
     (void)state;
-    for (int is_live = 0; is_live < 2; is_live++) {
-        chain.is_live = is_live;
-        open_pipeline(INITIATORS_PAIRS);
+    for (is_live = 0; is_live < 2; is_live++) {
+        open_node(RHO_NODE_PAIRS);
         describe_sensor(1, 0.0f, 80e3f);
         describe_sensor(8, 0.0f, 80e3f);
         assert_int_equal(initiator_of(8) == initiator_of(1), !is_live);
         describe_sensor(2, 0.0f, 80e3f);
         assert_int_equal(initiator_of(2) == initiator_of(1), is_live);
     }
-    chain.is_live = false;
+    is_live = 0;
 }
 
 static void radars_with_sectors_have_their_own_window(void **state)
 {
     (void)state;
-    open_pipeline(INITIATORS_PAIRS);
+    open_node(RHO_NODE_PAIRS);
     describe_sensor(1, 0.0f, 80e3f);
     describe_sensor(2, 0.0f, 80e3f);
     const struct rho_scan sector = {.sensor_id = 2, .sector_to_rad = 1.0f};
-    assert_ptr_not_equal(pipeline_initiator_of_sensor(&chain, &sector), initiator_of(1));
+    assert_ptr_not_equal(node_windows_find(&node, &sector, 0), initiator_of(1));
 }
 
 /* Steps whole turns of both radars for a minute, until their turn times are known. */
@@ -130,7 +133,7 @@ static void step_turns_of_two_radars(int first_s, int second_s)
             const struct rho_scan scan = {.sensor_id = id, .time_us = t_s * SECOND_US};
 
             if (t_s % (id == 1 ? first_s : second_s) == 0) {
-                pipeline_step(&chain, &scan);
+                assert_int_equal(rho_node_step_scan(&node, &scan), RHO_OK);
             }
         }
     }
@@ -142,7 +145,7 @@ static void radars_of_different_turn_times_stop_sharing(void **state)
     static const int turns_s[][3] = {{4, 5, 1}, {5, 4, 1}, {4, 4, 1}, {4, 10, 0}, {1, 2, 0}};
 
     for (size_t i = 0; i < sizeof turns_s / sizeof turns_s[0]; i++) {
-        open_pipeline(INITIATORS_PAIRS);
+        open_node(RHO_NODE_PAIRS);
         describe_sensor(1, 0.0f, 80e3f);
         describe_sensor(2, 0.0f, 80e3f);
         step_turns_of_two_radars(turns_s[i][0], turns_s[i][1]);
@@ -154,7 +157,7 @@ static void radars_of_different_turn_times_stop_sharing(void **state)
 static void a_radar_that_stops_sharing_keeps_its_scans(void **state)
 {
     (void)state;
-    open_pipeline(INITIATORS_PAIRS);
+    open_node(RHO_NODE_PAIRS);
     describe_sensor(1, 0.0f, 80e3f);
     describe_sensor(2, 0.0f, 80e3f);
     step_turns_of_two_radars(4, 10);
@@ -167,11 +170,11 @@ static void a_radar_that_stops_sharing_keeps_its_scans(void **state)
     }
 }
 
-static bool share_a_window(float first_s, float second_s)
+static int share_a_window(float first_s, float second_s)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        struct rho_tracker_pace *pace = &chain.tracker->sensors[i].pace;
-        const int32_t id = chain.tracker->sensors[i].sensor.sensor_id;
+        struct rho_tracker_pace *pace = &node.tracker.sensors[i].pace;
+        const int32_t id = node.tracker.sensors[i].sensor.sensor_id;
 
         pace->interval_s = id == 1 ? first_s : id == 2 ? second_s : pace->interval_s;
     }
@@ -188,7 +191,7 @@ static void sharing_stops_at_1_5_and_resumes_at_1_4_times_the_turn(void **state)
     for (int is_slow = 0; is_slow < 2; is_slow++) {
         const float slow_s = is_slow ? 10.0f : 4.0f;
 
-        open_pipeline(INITIATORS_PAIRS);
+        open_node(RHO_NODE_PAIRS);
         describe_sensor(1, 0.0f, 80e3f);
         describe_sensor(2, 0.0f, 80e3f);
         step_turns_of_two_radars(4, 4);
@@ -201,23 +204,72 @@ static void sharing_stops_at_1_5_and_resumes_at_1_4_times_the_turn(void **state)
     }
 }
 
-static int allocate_pipeline(void **state)
+/* The first radar's window is in the node; the last one that there is room for is shared. */
+static void radars_without_storage_share_the_last_window(void **state)
 {
     (void)state;
-    chain = pipeline_allocate();
-    return 0;
+    open_node(RHO_NODE_SINGLE);
+    for (int32_t id = 1; id <= STORED + 1; id++) {
+        assert_int_equal(rho_node_wants_storage(&node), 0);
+        assert_non_null(initiator_of(id));
+        assert_int_equal(node.windows.count, id);
+    }
+    assert_int_equal(rho_node_wants_storage(&node), 1);
+    assert_int_equal(node.windows.shared, 0);
+    assert_ptr_equal(initiator_of(100), &storage[STORED - 1]);
+    assert_ptr_equal(initiator_of(101), &storage[STORED - 1]);
+    assert_int_equal(node.windows.shared, 2);
+    assert_ptr_equal(initiator_of(1), rho_node_window(&node, 0));
+    assert_null(rho_node_window(&node, STORED + 1));
 }
 
-static int free_pipeline(void **state)
+static void storage_too_small_is_refused(void **state)
+{
+    const size_t one = rho_node_storage_size(1);
+
+    (void)state;
+    assert_int_equal(one, sizeof(struct rho_initiator));
+    start_default_node();
+    assert_int_equal(rho_node_add_storage(NULL, storage, one), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_add_storage(&node, NULL, one), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_add_storage(&node, storage, one - 1), RHO_ERROR_SIZE);
+    assert_int_equal(rho_node_add_storage(&node, (uint8_t *)storage + 1, one), RHO_ERROR_VALUE);
+    assert_int_equal(rho_node_add_storage(&node, storage, one),
+                     RHO_MAX_WINDOWS > 1 ? RHO_OK : RHO_ERROR_CAPACITY);
+    node.magic = 0;
+    assert_int_equal(rho_node_add_storage(&node, storage, one), RHO_ERROR_STATE);
+    assert_int_equal(rho_node_wants_storage(&node), 0);
+}
+
+/* A build with one window gives it to all radars, and wants no storage. */
+static void a_build_with_one_window_shares_it(void **state)
 {
     (void)state;
-    pipeline_free(&chain);
+    start_default_node();
+    assert_ptr_equal(initiator_of(1), rho_node_window(&node, 0));
+    assert_ptr_equal(initiator_of(2), rho_node_window(&node, 0));
+    assert_int_equal(rho_node_wants_storage(&node), 0);
+    assert_int_equal(node.windows.shared, 0);
+}
+
+static int allocate_storage(void **state)
+{
+    (void)state;
+    storage = malloc(rho_node_storage_size(STORED));
+    return storage ? 0 : -1;
+}
+
+static int free_storage(void **state)
+{
+    (void)state;
+    free(storage);
     return 0;
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(storage_too_small_is_refused),
         cmocka_unit_test(radars_of_the_same_coverage_share_a_window),
         cmocka_unit_test(a_third_radar_shares_a_window_with_the_fourth),
         cmocka_unit_test(radars_of_different_coverage_have_a_window_each),
@@ -226,6 +278,14 @@ int main(void)
         cmocka_unit_test(radars_of_different_turn_times_stop_sharing),
         cmocka_unit_test(a_radar_that_stops_sharing_keeps_its_scans),
         cmocka_unit_test(sharing_stops_at_1_5_and_resumes_at_1_4_times_the_turn),
+        cmocka_unit_test(radars_without_storage_share_the_last_window),
     };
-    return cmocka_run_group_tests(tests, allocate_pipeline, free_pipeline);
+    const struct CMUnitTest tests_of_one_window[] = {
+        cmocka_unit_test(storage_too_small_is_refused),
+        cmocka_unit_test(a_build_with_one_window_shares_it),
+    };
+
+    return RHO_MAX_WINDOWS > 1
+               ? cmocka_run_group_tests(tests, allocate_storage, free_storage)
+               : cmocka_run_group_tests(tests_of_one_window, allocate_storage, free_storage);
 }

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: MIT */
+/* node: messages in, and what is stepped next: scans, frames of bearings, restarts. */
+#include "rhotrack/node.h"
+
+#include <string.h>
+
+#include "node_parts.h"
+
+/* Least number of passive sensors whose bearings give positions. */
+#define PASSIVE_MIN 2
+
+/* Longest wait of a command for a step: longer than a turn of any radar. */
+#define COMMAND_WAIT_US 60000000
+
+/*
+ * Values of is_making_room: when the assembler has no room for a message (WANTED), one scan is
+ * stepped (MADE), and the caller gives the message again.
+ */
+enum { ROOM_ENOUGH = 0, ROOM_WANTED, ROOM_MADE };
+
+/* ---- Scans of plots ---- */
+
+/* Refuses a scan whose sensor the tracker does not take: the sensor's position would be unknown. */
+static enum rho_node_due give_scan(struct rho_node *node, const struct rho_scan *scan,
+                                   const struct rho_sensor *sensor)
+{
+    if (sensor && !node_sensor_describe(node, sensor)) {
+        node->counters.scans_refused = rho_count(node->counters.scans_refused, 1);
+        node->counters.plots_refused = rho_count(node->counters.plots_refused, scan->num_plots);
+        return RHO_NODE_NOTHING;
+    }
+    node->scan = *scan;
+    return RHO_NODE_SCAN;
+}
+
+static unsigned place_of_waiting(const struct rho_node *node, unsigned number)
+{
+    return (node->first_waiting + number) % (RHO_MAX_WAITING_SCANS > 0 ? RHO_MAX_WAITING_SCANS : 1);
+}
+
+static void let_item_wait(struct rho_node *node)
+{
+    struct rho_node_waiting *waiting =
+        NODE_WAITING(node) + place_of_waiting(node, node->num_waiting++);
+
+    waiting->scan = node->item.scan;
+    waiting->sensor = node->item.sensor;
+    waiting->has_sensor = node->item.has_sensor;
+    memcpy(waiting->plots, node->item.scan.plots,
+           node->item.scan.num_plots * sizeof(struct rho_plot));
+    waiting->scan.plots = waiting->plots;
+}
+
+static enum rho_node_due give_waiting(struct rho_node *node)
+{
+    const struct rho_node_waiting *first = NODE_WAITING(node) + node->first_waiting;
+
+    node->num_waiting--;
+    node->first_waiting = (uint8_t)place_of_waiting(node, 1);
+    return give_scan(node, &first->scan, first->has_sensor ? &first->sensor : NULL);
+}
+
+/*
+ * Gives the item's scan; while an older frame is open the scan waits, or closes it if none may
+ * wait.
+ */
+static enum rho_node_due give_item(struct rho_node *node)
+{
+    const struct rho_frames_slot *frame = node_frames_open(node);
+    const struct rho_scan_assembler_item *item = &node->item;
+
+    if (node->num_waiting == 0 && (!frame || frame->time_us >= item->scan.time_us)) {
+        node->has_item = 0;
+        return give_scan(node, &item->scan, item->has_sensor ? &item->sensor : NULL);
+    }
+    if (RHO_NODE_HAS_WAITING && node->num_waiting != RHO_MAX_WAITING_SCANS) {
+        let_item_wait(node);
+        node->has_item = 0;
+    } else {
+        (void)node_frames_close(node);
+    }
+    return RHO_NODE_NOTHING;
+}
+
+/* ---- What is due ---- */
+
+static enum rho_node_due give_closed_frame(struct rho_node *node)
+{
+    struct rho_frames *frames = NODE_FRAMES(node);
+
+    frames->config.sensors_min = PASSIVE_MIN;
+    if (node->has_closed == NODE_FRAME_CLOSED && frames->slots[1 - frames->open].is_restart) {
+        node->has_closed = NODE_FRAME_RESTARTED;
+        return RHO_NODE_RESTART;
+    }
+    node->has_closed = NODE_FRAME_NONE;
+    return RHO_NODE_FRAME;
+}
+
+/*
+ * Gives the closed frame, and then the scans that have waited for it. Closes a frame that no scan
+ * can join any more.
+ */
+static enum rho_node_due give_held(struct rho_node *node)
+{
+    enum rho_node_due due = RHO_NODE_NOTHING;
+    const struct rho_frames_slot *frame;
+    int64_t time_us;
+
+    while (RHO_NODE_HAS_BEARINGS && due == RHO_NODE_NOTHING) {
+        if (node->has_closed) {
+            return give_closed_frame(node);
+        }
+        if (!RHO_NODE_HAS_WAITING || node->num_waiting == 0) {
+            break;
+        }
+        frame = node_frames_open(node);
+        time_us = NODE_WAITING(node)[node->first_waiting].scan.time_us;
+        if (!frame || frame->time_us >= time_us) {
+            due = give_waiting(node);
+        } else if (node->num_waiting == RHO_MAX_WAITING_SCANS ||
+                   time_us > frame->time_us + NODE_FRAMES(node)->config.tolerance_us) {
+            (void)node_frames_close(node);
+        } else {
+            break;
+        }
+    }
+    return due;
+}
+
+/* Takes the fetched scan. Before a restart, the open frame and the scans behind it are stepped. */
+static enum rho_node_due take_item(struct rho_node *node, int64_t now_us)
+{
+    if (node->item.is_restart) {
+        if (node_frames_close(node)) {
+            return RHO_NODE_NOTHING;
+        }
+        node->item.is_restart = 0;
+        node_frames_reset(node);
+        return RHO_NODE_RESTART;
+    }
+    if (RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
+        node_frames_push(node, now_us);
+        return RHO_NODE_NOTHING;
+    }
+    return give_item(node);
+}
+
+/* 1 where the first scan after a snapshot is jump_max_us older: it is of another clock. */
+static int is_of_another_clock(const struct rho_node *node)
+{
+    const struct rho_tracker *tracker = &node->tracker;
+    int64_t time_us = RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)
+                          ? node->item.bearings.time_us
+                          : node->item.scan.time_us;
+
+    return node->is_restored && tracker->has_time &&
+           time_us < tracker->time_us - node->assembler.config.jump_max_us;
+}
+
+/* Fetches a due scan, or closes a frame whose time has passed. Returns 0 where neither is due. */
+static int fetch_item(struct rho_node *node, int64_t now_us)
+{
+    struct rho_scan_assembler *assembler = &node->assembler;
+    const uint8_t room = node->is_making_room;
+
+    node->is_making_room = room == ROOM_WANTED ? ROOM_MADE : ROOM_ENOUGH;
+    if (room == ROOM_MADE) {
+        return 0;
+    }
+    if (rho_scan_assembler_next(assembler, now_us, &node->item)) {
+        if (room == ROOM_WANTED && assembler->is_pressed &&
+            now_us - node->item.heard_us < assembler->config.hold_us) {
+            node->counters.scans_early = rho_count(node->counters.scans_early, 1);
+        }
+        node->item.is_restart |= is_of_another_clock(node);
+        node->is_restored = 0;
+        node->has_item = 1;
+        return 1;
+    }
+    return room == ROOM_ENOUGH && now_us >= node->frame_due_us && node_frames_close(node);
+}
+
+static enum rho_status step_closed_frame(struct rho_node *node)
+{
+    struct rho_frame_view view;
+
+    (void)rho_frames_closed(NODE_FRAMES(node), &view);
+    return node_chain_frame(node, &view.frame);
+}
+
+/* Does what is due; RHO_NODE_NOTHING where the tracker refuses it. */
+static enum rho_node_due do_due(struct rho_node *node, enum rho_node_due due)
+{
+    enum rho_status status = RHO_OK;
+
+    if (due == RHO_NODE_RESTART) {
+        node_commands_refuse(node, INT64_MAX);
+        node->counters.restarts = rho_count(node->counters.restarts, 1);
+        node_restart(node);
+    } else if (due == RHO_NODE_SCAN) {
+        status = node_chain_scan(node, &node->scan, 1);
+    } else if (RHO_NODE_HAS_BEARINGS) {
+        status = step_closed_frame(node);
+    }
+    return status == RHO_OK ? due : RHO_NODE_NOTHING;
+}
+
+static enum rho_node_due do_next(struct rho_node *node, int64_t now_us)
+{
+    enum rho_node_due due = RHO_NODE_NOTHING;
+    int has_more = 1;
+
+    while (has_more && due == RHO_NODE_NOTHING) {
+        due = give_held(node);
+        if (due == RHO_NODE_NOTHING && node->has_item) {
+            due = take_item(node, now_us);
+        } else if (due == RHO_NODE_NOTHING) {
+            has_more = fetch_item(node, now_us);
+        }
+        if (due != RHO_NODE_NOTHING) {
+            due = do_due(node, due);
+        }
+    }
+    return due;
+}
+
+enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)
+{
+    enum rho_node_due done = RHO_NODE_NOTHING;
+
+    if (!node_is_ready(node)) {
+        return RHO_NODE_NOTHING;
+    }
+    if (now_us != INT64_MAX) {
+        node->now_us = now_us;
+    }
+    if (RHO_MAX_COMMANDS > 0) {
+        node_answers_drop(node);
+        if (now_us > INT64_MIN + COMMAND_WAIT_US) {
+            node_commands_refuse(node, now_us - COMMAND_WAIT_US);
+        }
+        done = node_answers_count(node) > 0 ? RHO_NODE_ANSWER : RHO_NODE_NOTHING;
+    }
+    if (done == RHO_NODE_NOTHING) {
+        done = do_next(node, now_us);
+    }
+    node->done = (uint8_t)done;
+    if (RHO_MAX_COMMANDS > 0) {
+        node_answers_show(node);
+    }
+    return done;
+}
+
+enum rho_status rho_node_take(struct rho_node *node, const char *channel, const uint8_t *data,
+                              size_t size, int64_t now_us)
+{
+    enum rho_status status;
+
+    if (!node_is_ready(node)) {
+        return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
+    }
+    if (RHO_MAX_COMMANDS > 0 && node_commands_take(node, channel, data, size, now_us)) {
+        return RHO_OK;
+    }
+    node->now_us = now_us;
+    status = rho_scan_assembler_take(&node->assembler, channel, data, size, now_us);
+    node->is_making_room = status == RHO_ERROR_CAPACITY ? ROOM_WANTED : ROOM_ENOUGH;
+    return status;
+}
+
+int64_t rho_node_due_us(const struct rho_node *node)
+{
+    int64_t due_us = INT64_MAX;
+
+    if (node_is_ready(node)) {
+        due_us = rho_scan_assembler_due_us(&node->assembler);
+        due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
+    }
+    return due_us;
+}
+
+void rho_node_count_time(struct rho_node *node, int64_t took_us)
+{
+    uint32_t step_us = took_us < 0 ? 0 : took_us < INT32_MAX ? (uint32_t)took_us : INT32_MAX;
+
+    if (node) {
+        node->timing.sum_us = rho_count(node->timing.sum_us, step_us);
+        node->timing.max_us = step_us > node->timing.max_us ? step_us : node->timing.max_us;
+        node->timing.steps++;
+    }
+}

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * node_parts: the parts of a node that a build may lack, as pointers that are constants NULL there,
+ * and what the files of this room call of one another. A part is used behind an `if` on the build's
+ * option alone.
+ */
+#ifndef RHOTRACK_NODE_PARTS_H
+#define RHOTRACK_NODE_PARTS_H
+
+#include "rhotrack/node.h"
+
+#define RHO_NODE_MAGIC 0x6e6f6465u
+
+#if RHO_SEARCHES
+#define NODE_INITIATOR(node) (&(node)->initiator)
+#else
+#define NODE_INITIATOR(node) ((void)(node), (struct rho_initiator *)0)
+#endif
+#if RHO_SEARCHES && RHO_MAX_WINDOWS > 1
+#define NODE_UNPACKED(node) ((node)->unpacked)
+#define NODE_FATES(node) ((node)->fates)
+#else
+#define NODE_UNPACKED(node) ((void)(node), (struct rho_plot *)0)
+#define NODE_FATES(node) ((void)(node), (uint8_t *)0)
+#endif
+#if RHO_NODE_HAS_BEARINGS
+#define NODE_FRAMES(node) (&(node)->frames)
+#else
+#define NODE_FRAMES(node) ((void)(node), (struct rho_frames *)0)
+#endif
+#if RHO_NODE_HAS_PASSIVE
+#define NODE_PASSIVE(node) (&(node)->passive)
+#else
+#define NODE_PASSIVE(node) ((void)(node), (struct rho_passive *)0)
+#endif
+#if RHO_NODE_HAS_WAITING
+#define NODE_WAITING(node) ((node)->waiting)
+#else
+#define NODE_WAITING(node) ((void)(node), (struct rho_node_waiting *)0)
+#endif
+#if RHO_PAPERS
+#define NODE_PAPER_STARTS(node) (&(node)->paper_starts)
+#else
+#define NODE_PAPER_STARTS(node) ((void)(node), (struct rho_paper_starts *)0)
+#endif
+#if RHO_NODE_HAS_PASSIVE_PAPER
+#define NODE_PASSIVE_PAPER(node) (&(node)->passive_paper)
+#else
+#define NODE_PASSIVE_PAPER(node) ((void)(node), (struct rho_passive_paper *)0)
+#endif
+#if RHO_MAX_ZONES > 0
+#define NODE_ZONES(node) (&(node)->zones)
+#else
+#define NODE_ZONES(node) ((void)(node), (struct rho_zones *)0)
+#endif
+#if RHO_LEARNS_REFLECTORS
+#define NODE_LEARNING(node) (&(node)->learning)
+#else
+#define NODE_LEARNING(node) ((void)(node), (struct rho_reflector_learning *)0)
+#endif
+#if RHO_MAX_COMMANDS > 0
+#define NODE_OPERATOR(node) (&(node)->operated)
+#else
+#define NODE_OPERATOR(node) ((void)(node), (struct rho_node_operator *)0)
+#endif
+
+/* Values of has_closed: no closed frame; one to be stepped; one whose restart was made before. */
+enum { NODE_FRAME_NONE = 0, NODE_FRAME_CLOSED, NODE_FRAME_RESTARTED };
+
+static inline int node_is_ready(const struct rho_node *node)
+{
+    return node && node->magic == RHO_NODE_MAGIC;
+}
+
+/* 1 where the papers' methods start tracks, from plots or from bearings. */
+static inline int node_is_plots_by_paper(const struct rho_node *node)
+{
+    return RHO_PAPERS && (!(RHO_SEARCHES) || node->options.is_plots_by_paper);
+}
+
+static inline int node_is_bearings_by_paper(const struct rho_node *node)
+{
+    return RHO_NODE_HAS_PASSIVE_PAPER && (!(RHO_SEARCHES) || node->options.is_bearings_by_paper);
+}
+
+/* ---- node_setup.c ---- */
+
+/* Begins anew on another clock (node.h). Frames stay. */
+void node_restart(struct rho_node *node);
+
+/* ---- node_frames.c ---- */
+
+/* Empties frames and their sensors, but keeps the counters; the first frame waits for all. */
+void node_frames_reset(struct rho_node *node);
+
+/* Empties the batches of the searches in bearings. */
+void node_frames_restart(struct rho_node *node);
+
+/* The open frame; NULL where none is. */
+const struct rho_frames_slot *node_frames_open(const struct rho_node *node);
+
+/* Closes the open frame, which is to be stepped then; returns 0 where none was open. */
+int node_frames_close(struct rho_node *node);
+
+/* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
+void node_frames_push(struct rho_node *node, int64_t now_us);
+
+/* ---- node_sensors.c ---- */
+
+/* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
+int node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
+
+/* Describes a sensor to the tracker; returns 0 where that refuses it. */
+int node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
+
+/* ---- node_chain.c ---- */
+
+/* The chain of a step (node.h); is_live: the scan came as messages. */
+enum rho_status node_chain_scan(struct rho_node *node, const struct rho_scan *scan, int is_live);
+enum rho_status node_chain_frame(struct rho_node *node, const struct rho_frame *frame);
+
+/* ---- node_windows.c ---- */
+
+/* All windows but the first become free, and the first has no sensor. */
+enum rho_status node_windows_init(struct rho_node *node, const struct rho_initiator_config *config);
+
+/* The window of a scan's sensor, added where it is new and there is room. */
+struct rho_initiator *node_windows_find(struct rho_node *node, const struct rho_scan *scan,
+                                        int is_live);
+
+/* The window of the newest scan. */
+const struct rho_initiator *node_windows_newest(const struct rho_node *node);
+
+/* The window of this sensor, added where it is new; NULL where there is no room for it. */
+struct rho_initiator *node_windows_add(struct rho_node *node, int32_t sensor_id);
+
+/* ---- node_commands.c ---- */
+
+/* Queues an operator's command or setting, or counts it; 0 where the channel is another one. */
+int node_commands_take(struct rho_node *node, const char *channel, const uint8_t *data, size_t size,
+                       int64_t now_us);
+
+/* Runs the commands that wait, after a step; its report shows what they change. */
+void node_commands_run(struct rho_node *node);
+
+/* Answers that are published are dropped; the others become messages. */
+void node_answers_drop(struct rho_node *node);
+void node_answers_show(struct rho_node *node);
+unsigned node_answers_count(const struct rho_node *node);
+
+/* Refuses commands that came before that time, as what the operator saw has changed. */
+void node_commands_refuse(struct rho_node *node, int64_t before_us);
+
+#endif
