@@ -479,8 +479,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tr
                                                     struct rho_tracker_known *known);
 
 /*
- * Record of a sensor's newest scan of plots and its health; NULL: the sensor has sent none, or other
- * sensors have taken its row (struct rho_tracker_sensor). Cost: RHO_MAX_SENSORS.
+ * Record of a sensor's newest scan of plots and its health; NULL: the sensor has sent none, or
+ * others have taken its row (struct rho_tracker_sensor). Cost: RHO_MAX_SENSORS.
  */
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id);

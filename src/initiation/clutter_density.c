@@ -182,7 +182,7 @@ static int lay_out_polar_map(const struct search *search, const struct rho_senso
     struct polar_spread spread = polar_spread_of_plots(search, radar);
     float area_m2 = is_only_radar ? rho_density_area_m2(search->initiator)
                                   : rho_extent_area_m2(&spread.extent, 1.0f);
-    if (spread.plots < (float)POLAR_PLOTS_MIN) {
+    if (2.0f * spread.plots < (float)PLOTS_PER_CELL) {
         return 0;
     }
     float wider = (spread.plots + 1.0f) / (spread.plots - 1.0f);
@@ -312,7 +312,8 @@ static void fill_density_map(struct search *search, struct rho_density_map *map,
             scans += 1.0f;
         }
     }
-    const float cells = (float)(plots / PLOTS_PER_CELL + 1u);
+    const uint32_t whole_cells = plots / PLOTS_PER_CELL + 1u;
+    const float cells = (float)whole_cells;
     /* ratio of a cell's sides, in range and azimuth: the range over the arc at half the range */
     const float aspect = map->is_polar ? 2.0f / map->height : map->width / map->height;
     map->columns = (uint8_t)clamp_cell_count(rho_sqrt(cells * aspect));

@@ -28,11 +28,6 @@
  */
 #define PLOTS_PER_CELL 32u
 /*
- * Least plots that determine a radar's sector for a map of range and azimuth: half a cell's. Half:
- * chance decides on the kind of map. Twice: thin clutter keeps the square map.
- */
-#define POLAR_PLOTS_MIN (PLOTS_PER_CELL / 2u)
-/*
  * Largest weight of the mean density against a cell's count, in plots: the map is then flat. Half
  * or twice: no difference, as no cell has that many plots.
  */

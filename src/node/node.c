@@ -24,7 +24,7 @@ enum { ROOM_ENOUGH = 0, ROOM_WANTED, ROOM_MADE };
 static enum rho_node_due give_scan(struct rho_node *node, const struct rho_scan *scan,
                                    const struct rho_sensor *sensor)
 {
-    if (sensor && !node_sensor_describe(node, sensor)) {
+    if (sensor && !rho_node_sensor_describe(node, sensor)) {
         node->counters.scans_refused = rho_count(node->counters.scans_refused, 1);
         node->counters.plots_refused = rho_count(node->counters.plots_refused, scan->num_plots);
         return RHO_NODE_NOTHING;
@@ -66,7 +66,7 @@ static enum rho_node_due give_waiting(struct rho_node *node)
  */
 static enum rho_node_due give_item(struct rho_node *node)
 {
-    const struct rho_frames_slot *frame = node_frames_open(node);
+    const struct rho_frames_slot *frame = rho_node_frames_open(node);
     const struct rho_scan_assembler_item *item = &node->item;
 
     if (node->num_waiting == 0 && (!frame || frame->time_us >= item->scan.time_us)) {
@@ -77,7 +77,7 @@ static enum rho_node_due give_item(struct rho_node *node)
         let_item_wait(node);
         node->has_item = 0;
     } else {
-        (void)node_frames_close(node);
+        (void)rho_node_frames_close(node);
     }
     return RHO_NODE_NOTHING;
 }
@@ -114,13 +114,13 @@ static enum rho_node_due give_held(struct rho_node *node)
         if (!RHO_NODE_HAS_WAITING || node->num_waiting == 0) {
             break;
         }
-        frame = node_frames_open(node);
+        frame = rho_node_frames_open(node);
         time_us = NODE_WAITING(node)[node->first_waiting].scan.time_us;
         if (!frame || frame->time_us >= time_us) {
             due = give_waiting(node);
         } else if (node->num_waiting == RHO_MAX_WAITING_SCANS ||
                    time_us > frame->time_us + NODE_FRAMES(node)->config.tolerance_us) {
-            (void)node_frames_close(node);
+            (void)rho_node_frames_close(node);
         } else {
             break;
         }
@@ -132,15 +132,15 @@ static enum rho_node_due give_held(struct rho_node *node)
 static enum rho_node_due take_item(struct rho_node *node, int64_t now_us)
 {
     if (node->item.is_restart) {
-        if (node_frames_close(node)) {
+        if (rho_node_frames_close(node)) {
             return RHO_NODE_NOTHING;
         }
         node->item.is_restart = 0;
-        node_frames_reset(node);
+        rho_node_frames_reset(node);
         return RHO_NODE_RESTART;
     }
     if (RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        node_frames_push(node, now_us);
+        rho_node_frames_push(node, now_us);
         return RHO_NODE_NOTHING;
     }
     return give_item(node);
@@ -178,7 +178,7 @@ static int fetch_item(struct rho_node *node, int64_t now_us)
         node->has_item = 1;
         return 1;
     }
-    return room == ROOM_ENOUGH && now_us >= node->frame_due_us && node_frames_close(node);
+    return room == ROOM_ENOUGH && now_us >= node->frame_due_us && rho_node_frames_close(node);
 }
 
 static enum rho_status step_closed_frame(struct rho_node *node)
@@ -186,7 +186,7 @@ static enum rho_status step_closed_frame(struct rho_node *node)
     struct rho_frame_view view;
 
     (void)rho_frames_closed(NODE_FRAMES(node), &view);
-    return node_chain_frame(node, &view.frame);
+    return rho_node_chain_frame(node, &view.frame);
 }
 
 /* Does what is due; RHO_NODE_NOTHING where the tracker refuses it. */
@@ -195,11 +195,11 @@ static enum rho_node_due do_due(struct rho_node *node, enum rho_node_due due)
     enum rho_status status = RHO_OK;
 
     if (due == RHO_NODE_RESTART) {
-        node_commands_refuse(node, INT64_MAX);
+        rho_node_commands_refuse(node, INT64_MAX);
         node->counters.restarts = rho_count(node->counters.restarts, 1);
-        node_restart(node);
+        rho_node_restart(node);
     } else if (due == RHO_NODE_SCAN) {
-        status = node_chain_scan(node, &node->scan, 1);
+        status = rho_node_chain_scan(node, &node->scan, 1);
     } else if (RHO_NODE_HAS_BEARINGS) {
         status = step_closed_frame(node);
     }
@@ -229,25 +229,25 @@ enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)
 {
     enum rho_node_due done = RHO_NODE_NOTHING;
 
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_NODE_NOTHING;
     }
     if (now_us != INT64_MAX) {
         node->now_us = now_us;
     }
     if (RHO_MAX_COMMANDS > 0) {
-        node_answers_drop(node);
+        rho_node_answers_drop(node);
         if (now_us > INT64_MIN + COMMAND_WAIT_US) {
-            node_commands_refuse(node, now_us - COMMAND_WAIT_US);
+            rho_node_commands_refuse(node, now_us - COMMAND_WAIT_US);
         }
-        done = node_answers_count(node) > 0 ? RHO_NODE_ANSWER : RHO_NODE_NOTHING;
+        done = rho_node_answers_count(node) > 0 ? RHO_NODE_ANSWER : RHO_NODE_NOTHING;
     }
     if (done == RHO_NODE_NOTHING) {
         done = do_next(node, now_us);
     }
     node->done = (uint8_t)done;
     if (RHO_MAX_COMMANDS > 0) {
-        node_answers_show(node);
+        rho_node_answers_show(node);
     }
     return done;
 }
@@ -257,10 +257,10 @@ enum rho_status rho_node_take(struct rho_node *node, const char *channel, const 
 {
     enum rho_status status;
 
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
-    if (RHO_MAX_COMMANDS > 0 && node_commands_take(node, channel, data, size, now_us)) {
+    if (RHO_MAX_COMMANDS > 0 && rho_node_commands_take(node, channel, data, size, now_us)) {
         return RHO_OK;
     }
     node->now_us = now_us;
@@ -273,7 +273,7 @@ int64_t rho_node_due_us(const struct rho_node *node)
 {
     int64_t due_us = INT64_MAX;
 
-    if (node_is_ready(node)) {
+    if (rho_node_is_ready(node)) {
         due_us = rho_scan_assembler_due_us(&node->assembler);
         due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
     }

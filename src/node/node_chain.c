@@ -11,7 +11,7 @@ static enum rho_status end_step(struct rho_node *node, enum rho_status status)
     node->counters.steps = rho_count(node->counters.steps, 1);
     node->step = node->step == INT32_MAX ? INT32_MIN : node->step + 1;
     if (RHO_MAX_COMMANDS > 0) {
-        node_commands_run(node);
+        rho_node_commands_run(node);
     }
     if (RHO_MAX_ZONES > 0 && NODE_ZONES(node)->num_zones > 0) {
         (void)!rho_zones_step(NODE_ZONES(node), &node->report); /* takes any report of a step */
@@ -19,14 +19,14 @@ static enum rho_status end_step(struct rho_node *node, enum rho_status status)
     return status;
 }
 
-enum rho_status node_chain_scan(struct rho_node *node, const struct rho_scan *scan, int is_live)
+enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan *scan, int is_live)
 {
-    const int is_by_paper = node_is_plots_by_paper(node);
+    const int is_by_paper = rho_node_is_plots_by_paper(node);
     struct rho_initiator *initiator = NULL;
     enum rho_status status;
 
     if (RHO_SEARCHES && !is_by_paper) {
-        initiator = node_windows_find(node, scan, is_live);
+        initiator = rho_node_windows_find(node, scan, is_live);
     }
     status = rho_tracker_step(&node->tracker, initiator, scan, &node->report);
     if (status != RHO_OK) {
@@ -45,9 +45,9 @@ enum rho_status node_chain_scan(struct rho_node *node, const struct rho_scan *sc
     return end_step(node, status);
 }
 
-enum rho_status node_chain_frame(struct rho_node *node, const struct rho_frame *frame)
+enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_frame *frame)
 {
-    const int is_by_paper = node_is_bearings_by_paper(node);
+    const int is_by_paper = rho_node_is_bearings_by_paper(node);
     const enum rho_status status = rho_tracker_step_frame(
         &node->tracker, is_by_paper ? NULL : NODE_PASSIVE(node), frame, &node->report);
 
@@ -58,7 +58,7 @@ enum rho_status node_chain_frame(struct rho_node *node, const struct rho_frame *
     node->stepped = RHO_NODE_FRAME;
     if (is_by_paper && rho_passive_paper_step(NODE_PASSIVE_PAPER(node), &node->tracker, frame,
                                               &node->report) != RHO_OK) {
-        node_frames_restart(node); /* the frame's sensors do not fit the batch */
+        rho_node_frames_restart(node); /* the frame's sensors do not fit the batch */
     }
     return end_step(node, RHO_OK);
 }
@@ -68,7 +68,7 @@ enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan 
     if (!node || !scan) {
         return RHO_ERROR_NULL;
     }
-    return node_is_ready(node) ? node_chain_scan(node, scan, 0) : RHO_ERROR_STATE;
+    return rho_node_is_ready(node) ? rho_node_chain_scan(node, scan, 0) : RHO_ERROR_STATE;
 }
 
 enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_frame *frame)
@@ -76,8 +76,8 @@ enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_fram
     if (!node || !frame) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
-    return RHO_NODE_HAS_BEARINGS ? node_chain_frame(node, frame) : RHO_ERROR_TYPE;
+    return RHO_NODE_HAS_BEARINGS ? rho_node_chain_frame(node, frame) : RHO_ERROR_TYPE;
 }

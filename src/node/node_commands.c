@@ -9,7 +9,7 @@
 
 /* ---- Answers ---- */
 
-void node_answers_drop(struct rho_node *node)
+void rho_node_answers_drop(struct rho_node *node)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
 
@@ -21,12 +21,12 @@ void node_answers_drop(struct rho_node *node)
     }
 }
 
-unsigned node_answers_count(const struct rho_node *node)
+unsigned rho_node_answers_count(const struct rho_node *node)
 {
     return RHO_MAX_COMMANDS > 0 ? NODE_OPERATOR(node)->num_answers : 0;
 }
 
-void node_answers_show(struct rho_node *node)
+void rho_node_answers_show(struct rho_node *node)
 {
     if (RHO_MAX_COMMANDS > 0) {
         NODE_OPERATOR(node)->num_shown = NODE_OPERATOR(node)->num_answers;
@@ -90,7 +90,7 @@ static void refuse(struct rho_node *node, const struct rho_node_command *waiting
     }
 }
 
-void node_commands_refuse(struct rho_node *node, int64_t before_us)
+void rho_node_commands_refuse(struct rho_node *node, int64_t before_us)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
     unsigned kept = 0;
@@ -122,7 +122,7 @@ static void change_setting(struct rho_node *node, const struct rho_message_setti
     answer_setting(node, &answer);
 }
 
-void node_commands_run(struct rho_node *node)
+void rho_node_commands_run(struct rho_node *node)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
     struct rho_message_command_answer answer;
@@ -159,8 +159,8 @@ static int is_channel(const char *channel, const char *other)
     return channel && *channel == *other;
 }
 
-int node_commands_take(struct rho_node *node, const char *channel, const uint8_t *data, size_t size,
-                       int64_t now_us)
+int rho_node_commands_take(struct rho_node *node, const char *channel, const uint8_t *data,
+                           size_t size, int64_t now_us)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
     struct rho_node_command waiting = {

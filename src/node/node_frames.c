@@ -14,7 +14,7 @@
  * frame comes or its time has passed: the number of sensors is unknown, and a frame closed by the
  * second sensor would make the scans of all others out of sequence.
  */
-void node_frames_reset(struct rho_node *node)
+void rho_node_frames_reset(struct rho_node *node)
 {
     struct rho_frames *frames = NODE_FRAMES(node);
 
@@ -29,21 +29,21 @@ void node_frames_reset(struct rho_node *node)
     }
 }
 
-void node_frames_restart(struct rho_node *node)
+void rho_node_frames_restart(struct rho_node *node)
 {
     if (RHO_NODE_HAS_PASSIVE) {
         struct rho_passive *passive = NODE_PASSIVE(node);
 
         (void)!rho_passive_init(passive, sizeof *passive, &passive->config);
     }
-    if (node_is_bearings_by_paper(node)) {
+    if (rho_node_is_bearings_by_paper(node)) {
         struct rho_passive_paper *paper = NODE_PASSIVE_PAPER(node);
 
         (void)!rho_passive_paper_init(paper, sizeof *paper, &paper->config);
     }
 }
 
-const struct rho_frames_slot *node_frames_open(const struct rho_node *node)
+const struct rho_frames_slot *rho_node_frames_open(const struct rho_node *node)
 {
     const struct rho_frames *frames = NODE_FRAMES(node);
 
@@ -52,10 +52,10 @@ const struct rho_frames_slot *node_frames_open(const struct rho_node *node)
                : NULL;
 }
 
-int node_frames_close(struct rho_node *node)
+int rho_node_frames_close(struct rho_node *node)
 {
     node->frame_due_us = INT64_MAX;
-    if (!node_frames_open(node) || rho_frames_close(NODE_FRAMES(node)) != RHO_OK) {
+    if (!rho_node_frames_open(node) || rho_frames_close(NODE_FRAMES(node)) != RHO_OK) {
         return 0;
     }
     node->has_closed = NODE_FRAME_CLOSED;
@@ -69,7 +69,7 @@ int node_frames_close(struct rho_node *node)
 static int is_near_others(const struct rho_node *node, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames *frames = NODE_FRAMES(node);
-    const float apart_max_m = node_is_bearings_by_paper(node)
+    const float apart_max_m = rho_node_is_bearings_by_paper(node)
                                   ? NODE_PASSIVE_PAPER(node)->batch.apart_max_m
                               : RHO_NODE_HAS_PASSIVE ? NODE_PASSIVE(node)->batch.apart_max_m
                                                      : RANGE_UNKNOWN_M;
@@ -113,7 +113,7 @@ static int must_reset_after_refusal(struct rho_node *node, const struct rho_bear
         int32_t sensor_id = frames->sensors[i].sensor_id;
 
         if (sensor_id == scan->sensor_id ? ++node->refused_scans[i] >= MOVED_SCANS
-                                         : !node_sensor_is_heard(node, sensor_id)) {
+                                         : !rho_node_sensor_is_heard(node, sensor_id)) {
             return 1;
         }
     }
@@ -128,7 +128,7 @@ static void describe_sensor(struct rho_node *node)
         if (node->passive_range_max_m > 0.0f && sensor.range_max_m >= RANGE_UNKNOWN_M) {
             sensor.range_max_m = node->passive_range_max_m;
         }
-        (void)node_sensor_describe(node, &sensor);
+        (void)rho_node_sensor_describe(node, &sensor);
     }
 }
 
@@ -138,20 +138,20 @@ static void set_due_time(struct rho_node *node, int64_t now_us)
     int64_t hold_us = node->assembler.config.hold_us;
     int64_t wait_us = hold_us + NODE_FRAMES(node)->config.tolerance_us;
 
-    node->frame_due_us = node_frames_open(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
+    node->frame_due_us = rho_node_frames_open(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
                              ? now_us + wait_us
                              : INT64_MAX;
 }
 
-void node_frames_push(struct rho_node *node, int64_t now_us)
+void rho_node_frames_push(struct rho_node *node, int64_t now_us)
 {
     const struct rho_bearing_scan *scan = &node->item.bearings;
     int is_again = node->is_forgetting;
 
     node->is_forgetting = 0;
     if (RHO_NODE_HAS_BEARINGS && is_again) {
-        node_frames_reset(node);
-        node_frames_restart(node);
+        rho_node_frames_reset(node);
+        rho_node_frames_restart(node);
     }
     if (RHO_NODE_HAS_BEARINGS && add_to_frame(node, scan)) {
         describe_sensor(node);
@@ -160,7 +160,7 @@ void node_frames_push(struct rho_node *node, int64_t now_us)
         node->counters.bearings_refused = rho_count(node->counters.bearings_refused, 1);
         if (RHO_NODE_HAS_BEARINGS && must_reset_after_refusal(node, scan)) {
             node->is_forgetting = 1;
-            (void)node_frames_close(node);
+            (void)rho_node_frames_close(node);
         }
     }
     node->has_item = node->is_forgetting;

@@ -23,7 +23,7 @@ uint16_t rho_node_num_messages(const struct rho_node *node)
 {
     unsigned num = 0;
 
-    if (node_is_ready(node)) {
+    if (rho_node_is_ready(node)) {
         num = num_answers(node);
         if (node->done == RHO_NODE_SCAN || node->done == RHO_NODE_FRAME) {
             num += rho_publish_num_parts(&node->report) + 1u + num_bodies(node) + num_events(node);
@@ -75,10 +75,11 @@ static enum rho_status publish_peaks(const struct rho_node *node, uint8_t *buffe
 {
     const int is_frame = RHO_NODE_HAS_BEARINGS && node->stepped == RHO_NODE_FRAME;
     const struct rho_initiator *initiator =
-        RHO_SEARCHES && !is_frame ? node_windows_newest(node) : NULL;
+        RHO_SEARCHES && !is_frame ? rho_node_windows_newest(node) : NULL;
     const struct rho_passive *passive =
-        RHO_NODE_HAS_PASSIVE && is_frame && !node_is_bearings_by_paper(node) ? NODE_PASSIVE(node)
-                                                                             : NULL;
+        RHO_NODE_HAS_PASSIVE && is_frame && !rho_node_is_bearings_by_paper(node)
+            ? NODE_PASSIVE(node)
+            : NULL;
 
     return rho_publish_peaks(initiator, passive, node->report.time_us, node->step, buffer, capacity,
                              size);
@@ -89,7 +90,7 @@ enum rho_status rho_node_publish(const struct rho_node *node, uint16_t part, uin
 {
     unsigned of = part, peaks;
 
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     if (part >= rho_node_num_messages(node)) {
@@ -116,11 +117,11 @@ enum rho_status rho_node_publish(const struct rho_node *node, uint16_t part, uin
 
 void rho_node_status(struct rho_node *node, struct rho_message_status *status)
 {
-    if (!node_is_ready(node) || !status) {
+    if (!rho_node_is_ready(node) || !status) {
         return;
     }
     rho_publish_status(&node->assembler, NODE_FRAMES(node), &node->tracker,
-                       RHO_SEARCHES ? node_windows_newest(node) : NULL, status);
+                       RHO_SEARCHES ? rho_node_windows_newest(node) : NULL, status);
     status->scan = node->step;
     status->epoch = node->epoch;
     status->plots_in = rho_clamp_sum_to_int32(status->plots_in, node->counters.plots_refused);
@@ -135,7 +136,7 @@ void rho_node_status(struct rho_node *node, struct rho_message_status *status)
 
 void rho_node_work(const struct rho_node *node, struct rho_message_work *work)
 {
-    if (node_is_ready(node) && work) {
+    if (rho_node_is_ready(node) && work) {
         rho_publish_work(&node->tracker, work);
         work->scan = node->step;
         work->epoch = node->epoch;
@@ -145,7 +146,7 @@ void rho_node_work(const struct rho_node *node, struct rho_message_work *work)
 
 int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
 {
-    const struct rho_tracker *tracker = node_is_ready(node) ? &node->tracker : NULL;
+    const struct rho_tracker *tracker = rho_node_is_ready(node) ? &node->tracker : NULL;
     const unsigned place =
         tracker && node->next_learned < tracker->num_sensors ? node->next_learned : 0;
 

@@ -67,18 +67,18 @@
 /* Values of has_closed: no closed frame; one to be stepped; one whose restart was made before. */
 enum { NODE_FRAME_NONE = 0, NODE_FRAME_CLOSED, NODE_FRAME_RESTARTED };
 
-static inline int node_is_ready(const struct rho_node *node)
+static inline int rho_node_is_ready(const struct rho_node *node)
 {
     return node && node->magic == RHO_NODE_MAGIC;
 }
 
 /* 1 where the papers' methods start tracks, from plots or from bearings. */
-static inline int node_is_plots_by_paper(const struct rho_node *node)
+static inline int rho_node_is_plots_by_paper(const struct rho_node *node)
 {
     return RHO_PAPERS && (!(RHO_SEARCHES) || node->options.is_plots_by_paper);
 }
 
-static inline int node_is_bearings_by_paper(const struct rho_node *node)
+static inline int rho_node_is_bearings_by_paper(const struct rho_node *node)
 {
     return RHO_NODE_HAS_PASSIVE_PAPER && (!(RHO_SEARCHES) || node->options.is_bearings_by_paper);
 }
@@ -86,69 +86,71 @@ static inline int node_is_bearings_by_paper(const struct rho_node *node)
 /* ---- node_setup.c ---- */
 
 /* Begins anew on another clock (node.h). Frames stay. */
-void node_restart(struct rho_node *node);
+void rho_node_restart(struct rho_node *node);
 
 /* ---- node_frames.c ---- */
 
 /* Empties frames and their sensors, but keeps the counters; the first frame waits for all. */
-void node_frames_reset(struct rho_node *node);
+void rho_node_frames_reset(struct rho_node *node);
 
 /* Empties the batches of the searches in bearings. */
-void node_frames_restart(struct rho_node *node);
+void rho_node_frames_restart(struct rho_node *node);
 
 /* The open frame; NULL where none is. */
-const struct rho_frames_slot *node_frames_open(const struct rho_node *node);
+const struct rho_frames_slot *rho_node_frames_open(const struct rho_node *node);
 
 /* Closes the open frame, which is to be stepped then; returns 0 where none was open. */
-int node_frames_close(struct rho_node *node);
+int rho_node_frames_close(struct rho_node *node);
 
 /* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
-void node_frames_push(struct rho_node *node, int64_t now_us);
+void rho_node_frames_push(struct rho_node *node, int64_t now_us);
 
 /* ---- node_sensors.c ---- */
 
 /* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
-int node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
+int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
 
 /* Describes a sensor to the tracker; returns 0 where that refuses it. */
-int node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
+int rho_node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
 
 /* ---- node_chain.c ---- */
 
 /* The chain of a step (node.h); is_live: the scan came as messages. */
-enum rho_status node_chain_scan(struct rho_node *node, const struct rho_scan *scan, int is_live);
-enum rho_status node_chain_frame(struct rho_node *node, const struct rho_frame *frame);
+enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan *scan,
+                                    int is_live);
+enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_frame *frame);
 
 /* ---- node_windows.c ---- */
 
 /* All windows but the first become free, and the first has no sensor. */
-enum rho_status node_windows_init(struct rho_node *node, const struct rho_initiator_config *config);
+enum rho_status rho_node_windows_init(struct rho_node *node,
+                                      const struct rho_initiator_config *config);
 
 /* The window of a scan's sensor, added where it is new and there is room. */
-struct rho_initiator *node_windows_find(struct rho_node *node, const struct rho_scan *scan,
-                                        int is_live);
+struct rho_initiator *rho_node_windows_find(struct rho_node *node, const struct rho_scan *scan,
+                                            int is_live);
 
 /* The window of the newest scan. */
-const struct rho_initiator *node_windows_newest(const struct rho_node *node);
+const struct rho_initiator *rho_node_windows_newest(const struct rho_node *node);
 
 /* The window of this sensor, added where it is new; NULL where there is no room for it. */
-struct rho_initiator *node_windows_add(struct rho_node *node, int32_t sensor_id);
+struct rho_initiator *rho_node_windows_add(struct rho_node *node, int32_t sensor_id);
 
 /* ---- node_commands.c ---- */
 
 /* Queues an operator's command or setting, or counts it; 0 where the channel is another one. */
-int node_commands_take(struct rho_node *node, const char *channel, const uint8_t *data, size_t size,
-                       int64_t now_us);
+int rho_node_commands_take(struct rho_node *node, const char *channel, const uint8_t *data,
+                           size_t size, int64_t now_us);
 
 /* Runs the commands that wait, after a step; its report shows what they change. */
-void node_commands_run(struct rho_node *node);
+void rho_node_commands_run(struct rho_node *node);
 
 /* Answers that are published are dropped; the others become messages. */
-void node_answers_drop(struct rho_node *node);
-void node_answers_show(struct rho_node *node);
-unsigned node_answers_count(const struct rho_node *node);
+void rho_node_answers_drop(struct rho_node *node);
+void rho_node_answers_show(struct rho_node *node);
+unsigned rho_node_answers_count(const struct rho_node *node);
 
 /* Refuses commands that came before that time, as what the operator saw has changed. */
-void node_commands_refuse(struct rho_node *node, int64_t before_us);
+void rho_node_commands_refuse(struct rho_node *node, int64_t before_us);
 
 #endif

@@ -2,7 +2,7 @@
 /* node_sensors: describes sensors to the tracker, which forgets silent ones for want of room. */
 #include "node_parts.h"
 
-int node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id)
+int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id)
 {
     const struct rho_scan_assembler *assembler = &node->assembler;
 
@@ -25,14 +25,14 @@ static void forget_silent_sensors(struct rho_node *node)
     for (unsigned i = tracker->num_sensors; i-- > 0;) {
         int32_t sensor_id = tracker->sensors[i].sensor.sensor_id;
 
-        if (!node_sensor_is_heard(node, sensor_id) &&
+        if (!rho_node_sensor_is_heard(node, sensor_id) &&
             rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
             node->counters.sensors_forgotten = rho_count(node->counters.sensors_forgotten, 1);
         }
     }
 }
 
-int node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor)
+int rho_node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor)
 {
     enum rho_status status = rho_tracker_set_sensor(&node->tracker, sensor);
 

@@ -63,7 +63,7 @@ enum rho_status rho_node_set_settings(struct rho_node *node, const struct rho_se
     if (!node || !settings) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
     if (rho_settings_check(settings, NULL) != RHO_OK || !has_usable_ranges(node, settings)) {

@@ -80,11 +80,11 @@ static enum rho_status init_bearings(struct rho_node *node, const struct rho_nod
     node->options.is_bearings_by_paper = config->options.is_bearings_by_paper;
     node->passive_range_max_m = config->passive_range_max_m;
     node->frame_due_us = INT64_MAX;
-    node_frames_reset(node);
+    rho_node_frames_reset(node);
     if (RHO_NODE_HAS_PASSIVE && status == RHO_OK) {
         status = rho_passive_init(NODE_PASSIVE(node), sizeof *NODE_PASSIVE(node), &config->passive);
     }
-    if (node_is_bearings_by_paper(node) && status == RHO_OK) {
+    if (rho_node_is_bearings_by_paper(node) && status == RHO_OK) {
         status = rho_passive_paper_init(NODE_PASSIVE_PAPER(node), sizeof *NODE_PASSIVE_PAPER(node),
                                         &config->passive_paper);
     }
@@ -100,9 +100,9 @@ static enum rho_status init_tracking(struct rho_node *node, const struct rho_nod
         status = rho_tracker_set_body_max(&node->tracker, config->body_max_m);
     }
     if (status == RHO_OK) {
-        status = node_windows_init(node, &config->initiator);
+        status = rho_node_windows_init(node, &config->initiator);
     }
-    if (node_is_plots_by_paper(node) && status == RHO_OK) {
+    if (rho_node_is_plots_by_paper(node) && status == RHO_OK) {
         status = rho_paper_starts_init(NODE_PAPER_STARTS(node), sizeof *NODE_PAPER_STARTS(node),
                                        &config->paper_starts);
     }
@@ -132,7 +132,7 @@ enum rho_status rho_node_configure(struct rho_node *node, const struct rho_node_
     if (!node || !config) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
     memset(&node->item, 0, offsetof(struct rho_node, report) - offsetof(struct rho_node, item));
@@ -160,7 +160,7 @@ enum rho_status rho_node_configure_bearings(struct rho_node *node,
     if (!node || !config) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
     return !RHO_NODE_HAS_BEARINGS      ? RHO_ERROR_TYPE
@@ -200,7 +200,7 @@ enum rho_status rho_node_add_zone(struct rho_node *node, const struct rho_zone *
     if (!node) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
     return RHO_MAX_ZONES > 0 ? rho_zones_add(NODE_ZONES(node), zone) : RHO_ERROR_CAPACITY;
@@ -209,19 +209,19 @@ enum rho_status rho_node_add_zone(struct rho_node *node, const struct rho_zone *
 /* ---- Restart ---- */
 
 /* The configurations were taken before: no init can refuse them. */
-void node_restart(struct rho_node *node)
+void rho_node_restart(struct rho_node *node)
 {
     (void)!rho_tracker_restart(&node->tracker);
     if (RHO_SEARCHES) {
-        (void)!node_windows_init(node, &NODE_INITIATOR(node)->config);
+        (void)!rho_node_windows_init(node, &NODE_INITIATOR(node)->config);
     }
-    if (node_is_plots_by_paper(node)) {
+    if (rho_node_is_plots_by_paper(node)) {
         struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
         const struct rho_paper_starts_config config = starts->config;
 
         (void)!rho_paper_starts_init(starts, sizeof *starts, &config);
     }
-    node_frames_restart(node);
+    rho_node_frames_restart(node);
     node->epoch = node->epoch == INT32_MAX ? 0 : node->epoch + 1;
 }
 
@@ -234,7 +234,7 @@ enum rho_status rho_node_reconfigure(struct rho_node *node, const struct rho_nod
     if (!node || !config) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
     status = rho_tracker_reconfigure(&node->tracker, &config->tracker);

@@ -22,7 +22,7 @@ unsigned rho_node_list_parts(struct rho_node *node, struct rho_snapshot_part *pa
 {
     unsigned count = 0;
 
-    if (!node_is_ready(node) || !parts) {
+    if (!rho_node_is_ready(node) || !parts) {
         return 0;
     }
     parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, sharing_code(node),
@@ -108,14 +108,14 @@ static enum rho_status add_saved_windows(struct rho_node *node, const struct sav
     const int32_t sharing = saved->num_parts > 0 ? saved->parts[0].id : OF_NOBODY;
 
     if (RHO_SEARCHES) {
-        (void)!node_windows_init(node, &NODE_INITIATOR(node)->config);
+        (void)!rho_node_windows_init(node, &NODE_INITIATOR(node)->config);
     }
     for (unsigned i = 1;
          i < saved->num_parts && RHO_MAX_WINDOWS > 1 && RHO_SEARCHES &&
          node->options.windows != RHO_NODE_ONE && (sharing == OF_SENSORS || sharing == OF_PAIRS);
          i++) {
         if (saved->parts[i].kind == RHO_SNAPSHOT_INITIATOR &&
-            !node_windows_add(node, saved->parts[i].id)) {
+            !rho_node_windows_add(node, saved->parts[i].id)) {
             return RHO_ERROR_CAPACITY;
         }
     }
@@ -187,7 +187,7 @@ enum rho_status rho_node_load(struct rho_node *node, const void *image, size_t s
     if (!node || !image) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
     status = list_image(&saved, image, size);

@@ -23,12 +23,12 @@ static struct rho_initiator *window_at(struct rho_node *node, unsigned place)
 
 struct rho_initiator *rho_node_window(struct rho_node *node, unsigned place)
 {
-    return RHO_SEARCHES && node_is_ready(node) && place < node->windows.count
+    return RHO_SEARCHES && rho_node_is_ready(node) && place < node->windows.count
                ? window_at(node, place)
                : NULL;
 }
 
-const struct rho_initiator *node_windows_newest(const struct rho_node *node)
+const struct rho_initiator *rho_node_windows_newest(const struct rho_node *node)
 {
     const unsigned place = node->windows.newest;
 
@@ -42,8 +42,8 @@ size_t rho_node_storage_size(unsigned num_windows)
 
 int rho_node_wants_storage(const struct rho_node *node)
 {
-    return RHO_MAX_WINDOWS > 1 && RHO_SEARCHES && node_is_ready(node) &&
-           !node_is_plots_by_paper(node) && node->options.windows != RHO_NODE_ONE &&
+    return RHO_MAX_WINDOWS > 1 && RHO_SEARCHES && rho_node_is_ready(node) &&
+           !rho_node_is_plots_by_paper(node) && node->options.windows != RHO_NODE_ONE &&
            node->windows.has_sensor && node->windows.count == node->windows.num_places &&
            node->windows.num_places < RHO_MAX_WINDOWS;
 }
@@ -55,7 +55,7 @@ enum rho_status rho_node_add_storage(struct rho_node *node, void *memory, size_t
     if (!node || !memory) {
         return RHO_ERROR_NULL;
     }
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_ERROR_STATE;
     }
     if ((uintptr_t)memory % sizeof(int64_t) != 0) {
@@ -75,7 +75,8 @@ enum rho_status rho_node_add_storage(struct rho_node *node, void *memory, size_t
     return RHO_OK;
 }
 
-enum rho_status node_windows_init(struct rho_node *node, const struct rho_initiator_config *config)
+enum rho_status rho_node_windows_init(struct rho_node *node,
+                                      const struct rho_initiator_config *config)
 {
     node->windows.count = 1;
     node->windows.newest = 0;
@@ -235,7 +236,7 @@ static unsigned place_of(struct rho_node *node, int32_t sensor_id)
     return place;
 }
 
-struct rho_initiator *node_windows_add(struct rho_node *node, int32_t sensor_id)
+struct rho_initiator *rho_node_windows_add(struct rho_node *node, int32_t sensor_id)
 {
     struct rho_node_window_list *windows = &node->windows;
     const unsigned place = place_of(node, sensor_id);
@@ -254,8 +255,8 @@ struct rho_initiator *node_windows_add(struct rho_node *node, int32_t sensor_id)
     return window_at(node, place);
 }
 
-struct rho_initiator *node_windows_find(struct rho_node *node, const struct rho_scan *scan,
-                                        int is_live)
+struct rho_initiator *rho_node_windows_find(struct rho_node *node, const struct rho_scan *scan,
+                                            int is_live)
 {
     struct rho_node_window_list *windows = &node->windows;
     struct rho_initiator *window = NODE_INITIATOR(node);
@@ -265,7 +266,7 @@ struct rho_initiator *node_windows_find(struct rho_node *node, const struct rho_
         if (node->options.windows == RHO_NODE_PAIRS) {
             sensor_id = sensor_of_window(node, scan, is_live);
         }
-        window = node_windows_add(node, sensor_id);
+        window = rho_node_windows_add(node, sensor_id);
         if (!window || (windows->newest == RHO_MAX_WINDOWS - 1 &&
                         windows->sensor_id[windows->newest] == sensor_id)) {
             node->windows.shared = rho_count(node->windows.shared, 1);

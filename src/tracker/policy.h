@@ -26,7 +26,8 @@
 /*
  * Mean NIS per dimension of a sensor's plots: above the first the sensor is biased, below the
  * second it agrees. It is 1 in theory, and about 2 with manoeuvres and too small covariances. Half:
- * sensors are suspect as targets turn, or never trusted again. Twice: a bias of three sigmas passes.
+ * sensors are suspect as targets turn, or never trusted again. Twice: a bias of three sigmas
+ * passes.
  */
 #define CHI2_HIGH 4.0f
 #define CHI2_GOOD 2.5f
@@ -76,7 +77,8 @@
 #define LOG_NOISE_MAX 4.6f
 /*
  * Memory: looks at a ring of range at which looks and hits are halved, as are the sums of second
- * plots and echoes, and innovations at which their count stops. Half: what was learned is less exact. Twice: changes are learned late.
+ * plots and echoes, and innovations at which their count stops. Half: what was learned is less
+ * exact. Twice: changes are learned late.
  */
 #define LEARNED_MAX 1000
 /* Fewest innovations for learned noise to be used: a tenth, as ln f then varies by a tenth. */
@@ -464,9 +466,9 @@
 
 /*
  * Units of work, as measured: a plot scored by one hypothesis, in addition to move the hypothesis
- * to the plot's own time; the gate of a Kalman filter; in addition for a measured velocity in two or
- * three axes; an echo and a plot near it, and their range rates; a pair of plots near each other;
- * the image of a track, and a plot tested against an image.
+ * to the plot's own time; the gate of a Kalman filter; in addition for a measured velocity in two
+ * or three axes; an echo and a plot near it, and their range rates; a pair of plots near each
+ * other; the image of a track, and a plot tested against an image.
  */
 enum {
     SCORE_UNITS = 20,

@@ -157,6 +157,6 @@ float rho_health_sigma_factor(struct rho_tracker *tracker, struct rho_look *look
         judge_sensor(tracker, look); /* the witnesses may be silent by now */
     }
     /* the NIS, a ratio of variances, multiplies sigmas: a bias pulls tracks more than noise does */
-    const float shown = look->is_suspect ? look->row->look.distance2 : 1.0f;
+    const float shown = look->row && look->is_suspect ? look->row->look.distance2 : 1.0f;
     return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;
 }

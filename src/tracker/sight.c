@@ -33,8 +33,10 @@ int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track
 
 struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track)
 {
-    const struct detection stated = {look->log_pd, look->log_miss};
-    const struct detection learned = rho_learning_detection(look, track, stated);
-    return RHO_DOPPLER_NOTCH && track->blind_percent > 0 ? rho_notch_detection(look, track, learned)
-                                                         : learned;
+    struct detection seen = {look->log_pd, look->log_miss};
+    seen = rho_learning_detection(look, track, seen);
+    if (RHO_DOPPLER_NOTCH && track->blind_percent > 0) {
+        seen = rho_notch_detection(look, track, seen);
+    }
+    return seen;
 }

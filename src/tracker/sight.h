@@ -42,7 +42,7 @@ int rho_coverage_holds_track(const struct rho_look *look, float sector_from_rad,
 
 /* sector_turns.c (RHO_SECTORS): how the sectors of one turn follow each other */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
-int rho_turn_is_sound(const struct rho_tracker_look *look);
+int rho_turn_is_sound(const struct rho_tracker_look *health);
 /* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
 void rho_turn_note_look(struct rho_tracker *tracker, struct rho_look *look);
 /* Stores in a track with a plot of this scan that the scan's sensor saw it last. */

@@ -77,6 +77,7 @@ def unknown_files(name, text, files):
     name, FILE.c is a placeholder."""
     files = files + example_files(text)
     for number, line in enumerate(text.splitlines(), 1):
+        line = re.sub(r"^(---|\+\+\+) [ab]/", r"\1 ", line)  # of a diff
         for found in re.findall(r"(?<![\w./*-])[\w./-]*\w\.(?:c|h|py|sh|bash)\b(?![\w/(])", line):
             end = found.lstrip("./") if found.startswith((".", "_")) else "/" + found
             if not PLACEHOLDER.search(found) and found not in FOREIGN and not any(

@@ -48,7 +48,7 @@ static struct rho_initiator *initiator_of(int32_t sensor_id)
 {
     const struct rho_scan scan = {.sensor_id = sensor_id};
 
-    return node_windows_find(&node, &scan, is_live);
+    return rho_node_windows_find(&node, &scan, is_live);
 }
 
 static void radars_of_the_same_coverage_share_a_window(void **state)
@@ -122,7 +122,7 @@ static void radars_with_sectors_have_their_own_window(void **state)
     describe_sensor(1, 0.0f, 80e3f);
     describe_sensor(2, 0.0f, 80e3f);
     const struct rho_scan sector = {.sensor_id = 2, .sector_to_rad = 1.0f};
-    assert_ptr_not_equal(node_windows_find(&node, &sector, 0), initiator_of(1));
+    assert_ptr_not_equal(rho_node_windows_find(&node, &sector, 0), initiator_of(1));
 }
 
 /* Steps whole turns of both radars for a minute, until their turn times are known. */

@@ -58,7 +58,7 @@ static void a_sensor_has_one_row(void **state)
     assert_true(rho_tracker_is_sound(&tracker));
 }
 
-/* A described sensor keeps its row; the undescribed one heard longest ago gives way to a new one. */
+/* A described sensor keeps its row; the undescribed one heard longest ago gives way to another. */
 static void a_full_table_keeps_described_sensors(void **state)
 {
     (void)state;

@@ -168,8 +168,10 @@ static int nearest_plot(const struct maintainer *maintainer, const struct rho_sc
 
     if (rho_track_predict(&track, scan->time_us, &model) == RHO_OK) {
         rho_track_estimate_for_gate(&track, &expected);
-        for (float factor = 1.0f; nearest < 0 && factor <= FACTOR_MAX; factor *= 10.0f) {
+        float factor = 1.0f;
+        while (nearest < 0 && factor <= FACTOR_MAX) {
             nearest = nearest_plot_in_gate(scan, &expected, sensor, factor);
+            factor *= 10.0f;
         }
     }
     return nearest;

@@ -18,8 +18,7 @@ static const char *const column_names[NUM_COLUMN_IDS] = {
     COLUMNS_NAMED(COLUMN_TEXT) COLUMNS_WITH_OTHER_NAMES(COLUMN_TEXT) COLUMNS_OF_TRACKS(COLUMN_TEXT)
         COLUMNS_OF_CLUTTER_MAP(COLUMN_TEXT)};
 
-#define COLUMN_COUNT(id, name) +1
-enum { NUM_NAMED = 0 COLUMNS_NAMED(COLUMN_COUNT) };
+enum { NUM_NAMED = sizeof((const char *const[]){COLUMNS_NAMED(COLUMN_TEXT)}) / sizeof(char *) };
 
 const char *column_name(enum column_id column)
 {

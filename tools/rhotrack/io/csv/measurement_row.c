@@ -456,11 +456,11 @@ bool measurement_row_read(const struct measurement_columns *columns, size_t row,
                           const struct parameters *parameters, struct measurement_row *record,
                           char reason[ROW_REASON_BYTES])
 {
-    const struct row_reading reading = {
-        .cells = {.columns = &columns->in_file, .row = row, .reason = reason},
-        .columns = columns,
-        .parameters = parameters};
+    struct row_reading reading = {.cells = {.columns = &columns->in_file, .row = row},
+                                  .columns = columns,
+                                  .parameters = parameters};
 
+    reading.cells.reason = reason;
     *record = (struct measurement_row){.line = columns->in_file.table->lines[row]};
     return row_read_time_and_sensor(&reading.cells, &record->time_us, &record->sensor_id) &&
            row_read_received(&reading.cells, &record->received_us) &&
