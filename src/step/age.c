@@ -29,18 +29,6 @@ void rho_step_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_look *look = &step->look;
-    /*
-     * A frame without a bearing of a track is one miss, however many sensors looked. The score is
-     * left alone: the update has lowered it for each sensor.
-     */
-    for (unsigned row = 0; step->frame && row < tracker->num_tracks; row++) {
-        struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && !rho_track_is_frozen(track) && track->plot < 0 &&
-            rho_step_does_frame_cover(step, track)) {
-            rho_track_count_miss(track, 0);
-        }
-    }
-    rho_removal_of_duplicates(step);
     const struct rho_track_limits limits = rho_life_limits(look);
     rho_evidence_update(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {

@@ -9,8 +9,8 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
-void rho_step_begin_frame(struct rho_tracker *tracker, const struct rho_frame *frame,
-                          struct rho_look *look)
+void rho_step_open_frame(struct rho_tracker *tracker, const struct rho_frame *frame,
+                         struct rho_look *look)
 {
     const uint32_t looks = frame->num_scans < UINT16_MAX ? frame->num_scans : UINT16_MAX;
     if (looks > tracker->looks_max) {
@@ -39,7 +39,7 @@ static struct rho_sensor sensor_of_scan(const struct rho_tracker *tracker,
     return sensor;
 }
 
-int rho_step_does_frame_cover(const struct step *step, const struct rho_track *track)
+static int does_frame_cover(const struct step *step, const struct rho_track *track)
 {
     for (uint32_t i = 0; i < step->frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[i];
@@ -52,9 +52,9 @@ int rho_step_does_frame_cover(const struct step *step, const struct rho_track *t
     return 0;
 }
 
-void rho_step_open_bearings(struct rho_tracker *tracker, const struct rho_passive *passive,
-                            struct rho_look *look, const struct rho_bearing_scan *scan,
-                            uint32_t first, struct rho_sensor *sensor)
+static void open_look(struct rho_tracker *tracker, const struct rho_passive *passive,
+                      struct rho_look *look, const struct rho_bearing_scan *scan, uint32_t first,
+                      struct rho_sensor *sensor)
 {
     struct rho_tracker_sensor *row = rho_sensors_hear(tracker, scan->sensor_id);
     *sensor = sensor_of_scan(tracker, passive, scan);
@@ -77,7 +77,7 @@ void rho_step_open_bearings(struct rho_tracker *tracker, const struct rho_passiv
     rho_look_set_pd(look);
 }
 
-void rho_step_validate_bearings(struct rho_tracker *tracker, const struct rho_look *look)
+static void validate_bearings(struct rho_tracker *tracker, const struct rho_look *look)
 {
     for (uint32_t i = 0; i < look->num_gated; i++) {
         const struct rho_bearing *bearing = &look->bearings->bearings[i];
@@ -113,7 +113,7 @@ static int score_bearing(const struct rho_look *look, const struct rho_track *tr
     return 1;
 }
 
-void rho_step_offer_bearings(struct rho_tracker *tracker, const struct rho_look *look, unsigned row)
+static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *look, unsigned row)
 {
     float gain_nat;
     for (uint32_t i = 0; i < look->num_gated; i++) {
@@ -128,7 +128,7 @@ void rho_step_offer_bearings(struct rho_tracker *tracker, const struct rho_look 
  * The score of a track that the sensor covers but missed falls, even where other sensors of the
  * frame saw it.
  */
-void rho_step_update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look)
+static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look)
 {
     const struct rho_bearing_scan *scan = look->bearings;
     float unclaimed = 0.0f, gain_nat = 0.0f;
@@ -165,4 +165,46 @@ void rho_step_update_by_bearings(struct rho_tracker *tracker, const struct rho_l
         unclaimed += look->fates[i] == RHO_FATE_HELD ? 1.0f : 0.0f;
     }
     rho_clutter_smooth_mean(&tracker->unclaimed_bearings, unclaimed);
+}
+
+/* Claims and updates look by look: the bearings of a sensor meet the gates that those before left. */
+void rho_step_take_frame(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_look *look = &step->look;
+    const uint32_t num_gated = look->num_gated;
+    uint8_t *fates = look->fates;
+    struct rho_sensor sensor;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < step->frame->num_scans; i++) {
+        const struct rho_bearing_scan *scan = &step->frame->scans[i];
+        open_look(tracker, step->passive, look, scan, first, &sensor);
+        validate_bearings(tracker, look);
+        /* both counts are within the capacities: nothing to refuse */
+        (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
+        for (unsigned row = 0; row < tracker->num_tracks; row++) {
+            if (tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row)) {
+                offer_bearings(tracker, look, row);
+            }
+        }
+        rho_score_solve(tracker);
+        update_by_bearings(tracker, look);
+        first = rho_count(first, scan->num_bearings);
+        look->num_gated = num_gated;
+        look->fates = fates;
+    }
+    /* the look is again the whole frame, of no sensor */
+    look->bearings = 0;
+    look->sensor = 0;
+    /*
+     * A frame without a bearing of a track is one miss, however many sensors looked. The score is
+     * left alone: the update has lowered it for each sensor.
+     */
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status != RHO_TRACK_FREE && !rho_track_is_frozen(track) && track->plot < 0 &&
+            does_frame_cover(step, track)) {
+            rho_track_count_miss(track, 0);
+        }
+    }
 }

@@ -8,7 +8,6 @@
 #include "phases.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/measurement.h"
 
 int rho_step_is_newest(const struct rho_tracker *tracker, int64_t time_us)
 {
@@ -65,26 +64,5 @@ int rho_step_begin(struct step *step)
         tracker->time_us = look->time_us;
         tracker->has_time = 1;
     }
-    if (step->frame) {
-        rho_step_begin_frame(tracker, step->frame, look);
-        return 1;
-    }
-    /* the sensor with its pd, notch and noise, and the scan in its history */
-    look->row = rho_sensors_hear(tracker, look->scan->sensor_id);
-    if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
-        look->sensor = &look->row->sensor;
-        look->learned = &look->row->learned;
-    }
-    rho_look_set_pd(look);
-    if (RHO_SECTORS) {
-        rho_turn_note_look(tracker, look);
-    }
-    if (look->teaches && look->row) {
-        rho_pace_update(&look->row->pace, look->sensor, look->time_us, look->scan->sector_from_rad,
-                        look->scan->sector_to_rad);
-    }
-    rho_look_open_noise(tracker, look);
-    look->log_range_rates -= rho_measurement_log_aliases(look->sensor, tracker->config.v_max_mps);
-    look->range_rates_mps = rho_exp(look->log_range_rates);
     return 1;
 }

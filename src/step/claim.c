@@ -132,13 +132,9 @@ static void validate_plots(struct rho_tracker *tracker, struct rho_look *look)
 
 void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
-    if (look->bearings) {
-        rho_step_validate_bearings(tracker, look);
-    } else {
-        validate_plots(tracker, look);
-        rho_plots_index(tracker, look);
-        rho_clutter_open(tracker, look, work);
-    }
+    validate_plots(tracker, look);
+    rho_plots_index(tracker, look);
+    rho_clutter_open(tracker, look, work);
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
     rho_work_begin_shares(look, work);
@@ -147,9 +143,7 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
         if (track->status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
             continue;
         }
-        if (look->bearings) {
-            rho_step_offer_bearings(tracker, look, row);
-        } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
             const float log_miss = rho_score_log_miss(look, track);
             struct plot_scores scores;
             uint32_t plot;

@@ -82,10 +82,6 @@ static void start_from_candidates(struct step *step)
 void rho_step_initiate(struct step *step)
 {
     const struct rho_look *look = &step->look;
-    if (step->frame) {
-        rho_step_initiate_bearings(step);
-        return;
-    }
     rho_removal_of_plots(step->tracker, look, &step->work);
     if (!look->starts) {
         rho_step_replace_fates(look, RHO_FATE_HELD, RHO_FATE_STALE);

@@ -12,10 +12,33 @@
 #include <string.h>
 
 #include "phases.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/doppler_notch.h"
+#include "rhotrack/detail/measurement.h"
 
 /* Largest row of a plot that the int16_t field of a track holds. */
 #define ROWS_MAX ((uint32_t)INT16_MAX)
+
+void rho_step_open_scan(struct rho_tracker *tracker, struct rho_look *look)
+{
+    /* the sensor with its pd, notch and noise, and the scan in its history */
+    look->row = rho_sensors_hear(tracker, look->scan->sensor_id);
+    if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
+        look->sensor = &look->row->sensor;
+        look->learned = &look->row->learned;
+    }
+    rho_look_set_pd(look);
+    if (RHO_SECTORS) {
+        rho_turn_note_look(tracker, look);
+    }
+    if (look->teaches && look->row) {
+        rho_pace_update(&look->row->pace, look->sensor, look->time_us, look->scan->sector_from_rad,
+                        look->scan->sector_to_rad);
+    }
+    rho_look_open_noise(tracker, look);
+    look->log_range_rates -= rho_measurement_log_aliases(look->sensor, tracker->config.v_max_mps);
+    look->range_rates_mps = rho_exp(look->log_range_rates);
+}
 
 static void take_parts(struct step *step)
 {
@@ -64,28 +87,9 @@ static void take_parts(struct step *step)
     look->num_gated = whole.num_gated;
 }
 
-void rho_step_take_looks(struct step *step)
+void rho_step_take_scan(struct step *step)
 {
     struct rho_look *look = &step->look;
-    if (step->frame) {
-        const uint32_t num_gated = look->num_gated;
-        uint8_t *fates = look->fates;
-        struct rho_sensor sensor;
-        uint32_t first = 0;
-        for (uint32_t i = 0; i < step->frame->num_scans; i++) {
-            const struct rho_bearing_scan *scan = &step->frame->scans[i];
-            rho_step_open_bearings(step->tracker, step->passive, look, scan, first, &sensor);
-            rho_step_claim(step->tracker, look, &step->work);
-            rho_step_update(step->tracker, look, &step->work);
-            first = rho_count(first, scan->num_bearings);
-            look->num_gated = num_gated;
-            look->fates = fates;
-        }
-        /* the look is again the whole frame, of no sensor */
-        look->bearings = 0;
-        look->sensor = 0;
-        return;
-    }
     if (rho_notch_sensor_has_notch(look->sensor)) {
         rho_notch_mark_tracks(step->tracker, look);
     }
@@ -96,4 +100,5 @@ void rho_step_take_looks(struct step *step)
         rho_step_claim(step->tracker, look, &step->work);
         rho_step_update(step->tracker, look, &step->work);
     }
+    rho_removal_of_duplicates(step);
 }

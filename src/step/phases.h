@@ -26,26 +26,20 @@ int rho_step_is_newest(const struct rho_tracker *tracker, int64_t time_us);
 /* predict.c: moves the tracks that a look can see to the time of the step */
 void rho_step_predict(struct step *step);
 
-/* looks.c: opens the step's looks, one after the other; each is claimed, and updates tracks */
-void rho_step_take_looks(struct step *step);
-/* claim.c: gates a look's plots or bearings, and assigns them to tracks; changes no track */
+/* looks.c: opens the look of a scan: its sensor with pd, notch and noise */
+void rho_step_open_scan(struct rho_tracker *tracker, struct rho_look *look);
+/* Claims and updates by the scan, in parts if it is large; then ends second tracks. */
+void rho_step_take_scan(struct step *step);
+/* claim.c: gates a look's plots, and assigns them to tracks; changes no track */
 void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
-/* update.c: tracks take the plots or bearings that they were assigned */
+/* update.c: tracks take the plots that they were assigned */
 void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 
-/* bearing_looks.c: a frame of bearings begins */
-void rho_step_begin_frame(struct rho_tracker *tracker, const struct rho_frame *frame,
-                          struct rho_look *look);
-/* Opens the look of a scan; first: place of its first bearing in the frame. sensor: room for it */
-void rho_step_open_bearings(struct rho_tracker *tracker, const struct rho_passive *passive,
-                            struct rho_look *look, const struct rho_bearing_scan *scan,
-                            uint32_t first, struct rho_sensor *sensor);
-void rho_step_validate_bearings(struct rho_tracker *tracker, const struct rho_look *look);
-void rho_step_offer_bearings(struct rho_tracker *tracker, const struct rho_look *look,
-                             unsigned row);
-void rho_step_update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look);
-/* True where any sensor of the frame covers the track's place. */
-int rho_step_does_frame_cover(const struct step *step, const struct rho_track *track);
+/* bearing_looks.c: opens a frame of bearings, of which no sensor's look is open yet */
+void rho_step_open_frame(struct rho_tracker *tracker, const struct rho_frame *frame,
+                         struct rho_look *look);
+/* Claims and updates by each sensor's bearings, and counts the misses of the frame. */
+void rho_step_take_frame(struct step *step);
 
 /* age.c: counts misses, confirms and ends tracks */
 void rho_step_age(struct step *step);

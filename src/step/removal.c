@@ -11,7 +11,7 @@
 
 void rho_removal_of_duplicates(struct step *step)
 {
-    if (RHO_MAX_ECHOES > 0 && step->look.scan) {
+    if (RHO_MAX_ECHOES > 0) {
         rho_second_plots_take_look(step);
     }
 }
@@ -46,8 +46,7 @@ void rho_removal_of_plots(struct rho_tracker *tracker, const struct rho_look *lo
 
 void rho_removal_of_images(struct step *step)
 {
-    if (RHO_MAX_REFLECTORS > 0 && step->tracker->num_reflectors > 0 && step->look.scan &&
-        step->look.teaches) {
+    if (RHO_MAX_REFLECTORS > 0 && step->tracker->num_reflectors > 0 && step->look.teaches) {
         rho_images_end_tracks(step);
     }
 }

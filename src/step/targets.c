@@ -23,7 +23,7 @@ void rho_targets_share_plots(struct rho_tracker *tracker, const struct rho_look 
 
 void rho_targets_split(struct step *step)
 {
-    if (step->look.scan && rho_bodies_are_used(step->tracker)) {
+    if (rho_bodies_are_used(step->tracker)) {
         rho_bodies_update(step->tracker, &step->look, step->whole);
         rho_step_split_bodies(step, step->whole);
         rho_bodies_ungroup(step->tracker, &step->look, step->whole);

@@ -73,10 +73,6 @@ static void update_hypotheses(struct rho_tracker *tracker, const struct rho_look
 void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
     struct rho_tracker_counters *counters = &tracker->counters;
-    if (look->bearings) {
-        rho_step_update_by_bearings(tracker, look);
-        return;
-    }
     if (RHO_SECTORS) {
         rho_health_compare(tracker, look);
     }
