@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * age: counts misses of tracks without a plot where the sensor looked, and asks of each track
- * whether it is confirmed, and whether it must go.
- */
+/* age: counts misses where the sensor looked, and asks of each track whether it is to end. */
 #include "phases.h"
 #include "rhotrack/detail/doppler_notch.h"
 
@@ -29,10 +26,7 @@ void rho_step_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_look *look = &step->look;
-    /*
-     * A frame without a bearing of a track is one miss, however many sensors looked. The score is
-     * left alone: the update has lowered it for each sensor.
-     */
+    /* a frame without a bearing is one miss; the update has lowered the score for each sensor */
     for (unsigned row = 0; step->frame && row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status != RHO_TRACK_FREE && !rho_track_is_frozen(track) && track->plot < 0 &&
@@ -56,7 +50,8 @@ void rho_step_age(struct step *step)
         rho_removal_of_track(step, track, is_missed, &limits);
     }
     rho_life_remove_ended(tracker);
-    if (look->scan && rho_notch_sensor_has_notch(look->sensor)) {
-        rho_notch_clear_tracks(tracker);
+    const int has_notch = look->scan && rho_notch_sensor_has_notch(look->sensor);
+    for (unsigned row = 0; has_notch && row < tracker->num_tracks; row++) {
+        tracker->tracks[row].blind_percent = 0;
     }
 }

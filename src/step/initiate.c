@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * initiate: tracks start from the plots that no track claimed.
- */
+/* initiate: tracks start from the plots that no track claimed. */
 #include "phases.h"
 
 /* Pushes the held plots, and searches for candidates with plots of this scan. */
