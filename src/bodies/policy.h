@@ -66,7 +66,7 @@
 
 /* duplicate_tracks.c */
 
-/* Hits of a new track, less than. Half: a long target keeps two. Twice: of two cars one is lost. */
+/* A track with fewer hits is new. Half: a long target keeps two. Twice: of two cars one is lost. */
 #define NEW_HITS 20u
 /*
  * Distance of two new tracks of one target along the heading and across it, in longest bodies.

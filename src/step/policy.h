@@ -75,13 +75,13 @@
  */
 #define FAST_SHARE 1.1f
 /*
- * Successive updates so fast that end a track. Half: one wrong plot does. Twice: it stays longer.
+ * Successive fast updates that end a track. Half: one wrong plot does. Twice: false ones stay.
  */
 #define FAST_UPDATES 3
 
 /* split_bodies.c */
 
-/* Widest body, over the length of the longest. Half: lorries split. Twice: cars abreast are one. */
+/* Widest body over the longest one. Half: lorries are split. Twice: cars abreast keep one track. */
 #define WIDEST_SHARE 0.3f
 /*
  * Plots of a body before its width counts: with fewer, its first heading may still be wrong. Half:

@@ -190,7 +190,7 @@
  * short outage changes the direction. Twice: a new sector's interval is known late.
  */
 #define INTERVALS_GONE 16.0f
-/* Scan intervals by which a look may be late. Half: jitter ends tracks. Twice: they end late. */
+/* Scan intervals that a look may be late. Half: jitter ends tracks. Twice: gone targets stay. */
 #define OVERDUE 0.5f
 /*
  * Scan intervals by which a track that no sensor covers ends before coast_scans_max of them. Half:
@@ -226,7 +226,7 @@
  * Twice: targets are confirmed later where aircraft come and go.
  */
 #define TRUE_PER_FALSE 10.0f
-/* Prior number of established tracks. Half: few early ends count. Twice: more false ones come. */
+/* Prior number of established tracks. Half: early ends weigh more. Twice: more false ones come. */
 #define ESTABLISHED_PRIOR 2.0f
 /*
  * Standard deviations by which the count of tracks that ended early may exceed its mean. Half:
