@@ -49,10 +49,7 @@ struct rho_body_side {
     float prior_share; /* weight of the prior in the mean, 0 .. 1 */
 };
 
-/*
- * Evidence that a body is two targets, by looks with several plots of the body. All sums fade over
- * about 80 such looks.
- */
+/* Evidence by looks with several plots that a body is two targets; it fades over 80 looks. */
 struct rho_body_doubt {
     float looks, long_looks; /* looks; looks with plots farther apart than the longest body */
     float steady_looks;      /* looks with range rates since the heading last turned */
@@ -61,8 +58,7 @@ struct rho_body_doubt {
     float plots_beyond_one; /* sum over the steady looks of their plots less one */
     /*
      * sums of squares and products of plots' deviations from the mean of their look: place along
-     * the line of sight (far), place across it (side), range rate; and the sums that noise alone
-     * would give
+     * the line of sight (far), across it (side), range rate; and the sums by noise alone
      */
     float far_m2, side_m2, cross_m2, rates_m2ps2, far_m2ps, side_m2ps;
     float side_noise_m2, rate_noise_m2ps2;

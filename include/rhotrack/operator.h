@@ -96,10 +96,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_freeze_track(struct rho_tracker *trac
 RHO_MUST_CHECK enum rho_status rho_tracker_exclude_area(struct rho_tracker *tracker,
                                                         const struct rho_extent *area);
 
-/*
- * Removes the excluded areas that contain a place. Errors: NULL, STATE (not initialised), VALUE (no
- * area contains it). Cost: areas.
- */
+/* Removes the areas that contain a place. Errors: NULL, STATE, VALUE (none does). Cost: areas. */
 RHO_MUST_CHECK enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m,
                                                          float y_m);
 

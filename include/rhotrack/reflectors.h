@@ -110,10 +110,7 @@ struct rho_learned_reflector {
     float sigma_m;     /* sigma of its witnesses' places, smoothed */
     float distance_m;  /* mean distance at which witnesses for the line passed */
     float distance_m2; /* variance of the distance at which witnesses for the line passed */
-    /*
-     * across the line: mean square, over its witnesses, of the mean distance of places half way to
-     * images
-     */
+    /* across the line: mean square of the witnesses' mean distance of places half way to images */
     float off_m2;
     uint32_t first; /* step of the learning in which the first witness had spoken for the line */
     uint16_t witnesses_for, witnesses_against;
@@ -156,10 +153,7 @@ RHO_MUST_CHECK enum rho_status rho_reflector_learning_step(struct rho_reflector_
 int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, unsigned place,
                                 struct rho_reflector *reflector);
 
-/*
- * True where an object of unknown origin (a snapshot) is consistent. Constant cost.
- * Stack: 112 bytes.
- */
+/* True where an object of unknown origin (a snapshot) is sound. Constant cost. Stack: 112 bytes. */
 int rho_reflector_learning_is_sound(const struct rho_reflector_learning *learning);
 
 #ifdef __cplusplus

@@ -71,10 +71,7 @@
 extern "C" {
 #endif
 
-/*
- * How tracks choose among plots, and the filter that follows the target. Tracks of bearings have a
- * plain Kalman filter.
- */
+/* How tracks choose among plots, and their filter; tracks of bearings have a Kalman filter. */
 enum rho_tracker_gate {
     RHO_TRACKER_BEST = 0, /* several hypotheses over two motion models: imm, hypotheses */
     /* the method of the paper: Hough clutter elimination in a window of plots, input estimation */
@@ -111,16 +108,14 @@ struct rho_tracker_config {
      */
     float late_max_s;
     /*
-     * bounds of the values that are learned for a sensor (struct rho_tracker_learned): factors on
-     * its plots' sigmas, 0.1 .. 1 and 1 .. 10; pd over the stated pd, 0.1 .. 1. A bound of 1 turns
-     * off learning in that direction
+     * bounds of values learned for a sensor (struct rho_tracker_learned): factors on its sigmas,
+     * 0.1 .. 1 and 1 .. 10; pd over the stated pd, 0.1 .. 1. 1: no learning in that direction
      */
     float learn_noise_min, learn_noise_max, learn_pd_min;
     /*
-     * misses in a row that end a track, 1 .. 255. A track of 16 hits only becomes tentative then,
-     * and ends after 2.4 times as many, as long as little clutter is expected in its gate. Also the
-     * number of scans, of the sensors that saw it last, for whose time a track coasts that no
-     * sensor can see
+     * misses in a row that end a track, 1 .. 255; one of 16 hits only becomes tentative then, and
+     * ends after 2.4 times as many where little clutter is expected in its gate. Also the scans, of
+     * the sensors that saw it last, for whose time a track coasts that no sensor can see
      */
     uint16_t coast_scans_max;
     uint8_t gate;   /* enum rho_tracker_gate */
@@ -209,10 +204,7 @@ struct rho_tracker_look {
     float sigma_m; /* stated noise of the newest of these plots, the larger horizontal sigma */
     uint16_t watched, watched_hits;
     uint16_t count; /* scans of the sensor so far, 1 .. 65535 and then 1 again */
-    /*
-     * the sensor contradicts the others: its plots are given more noise, its misses do not count,
-     * and it starts no tracks
-     */
+    /* it contradicts the others: more noise, its misses do not count, it starts no tracks */
     uint16_t is_suspect;
 };
 
@@ -236,10 +228,7 @@ struct rho_tracker_learned {
     /* ln of learned over stated variance of plots, along the line of sight and across it */
     float log_noise[2];
     uint16_t innovations; /* innovations that log_noise was learned from; stops at 1000 */
-    /*
-     * by ring of range: looks at tracks that were seen at the look before, and those looks that saw
-     * them again; both are halved at 1000
-     */
+    /* by ring of range: looks after a look with a plot, and those with a plot; halved at 1000 */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
     uint8_t is_lowered; /* bit i: the learned pd is used in ring i */
     uint8_t ring;       /* ring whose pd is tested next, one ring a scan */
@@ -274,10 +263,7 @@ struct rho_tracker_pace {
  * heard longest ago, and so does a new undescribed one.
  */
 struct rho_tracker_sensor {
-    /*
-     * the description, with the noise factors and the notch that were learned; of a sensor that was
-     * not described sensor_id alone
-     */
+    /* as described, with learned noise and notch; of an undescribed one sensor_id alone */
     struct rho_sensor sensor;
     struct rho_tracker_learned learned; /* of a described sensor */
     struct rho_tracker_pace pace;
@@ -382,10 +368,7 @@ struct rho_report {
     uint32_t ended[RHO_MAX_TRACKS];
 };
 
-/*
- * Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value.
- * Constant cost. Stack: 0 bytes.
- */
+/* "free", "tentative", "confirmed", "coasting"; else "unknown". Constant cost. Stack: 0 bytes. */
 const char *rho_track_status_name(enum rho_track_status status);
 
 /*
@@ -463,10 +446,7 @@ struct rho_tracker_known {
     uint32_t innovations, looks;      /* numbers from which factors and pd were learned */
     /* notch, learned where none was stated (RHO_DOPPLER_NOTCH); 0: none */
     float notch_mps;
-    /*
-     * resolution cell in sigmas of plots, learned where none was stated (RHO_SHARES_PLOTS); 0: not
-     * learned
-     */
+    /* resolution cell in sigmas, learned where none was stated (RHO_SHARES_PLOTS); 0: not yet */
     float resolution_range_sigmas, resolution_cross_sigmas;
 };
 
@@ -479,8 +459,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tr
                                                     struct rho_tracker_known *known);
 
 /*
- * Record of a sensor's newest scan of plots and its health; NULL: the sensor has sent none, or
- * others have taken its row (struct rho_tracker_sensor). Cost: RHO_MAX_SENSORS.
+ * Record of a sensor's newest scan of plots and its health; NULL: it has sent none, or other
+ * sensors have taken its row (struct rho_tracker_sensor). Cost: RHO_MAX_SENSORS.
  */
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id);

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * bodies: targets of several plots a scan. Private to src/bodies and src/step.
- */
+/* bodies: targets of several plots a scan. Private to src/bodies and src/step. */
 #ifndef RHOTRACK_BODIES_H
 #define RHOTRACK_BODIES_H
 
@@ -11,10 +9,7 @@
 /* In struct rho_groups: a row that stands for no plot, no group or no track. */
 #define RHO_NO_ROW UINT16_MAX
 
-/*
- * plot_groups.c (RHO_BODIES): after tracks were predicted, replaces the step's scan by `grouped`,
- * with one plot for each group
- */
+/* plot_groups.c (RHO_BODIES): replaces the step's scan by `grouped`, a plot for each group */
 void rho_bodies_group(struct step *step);
 /* Before the report: restores the scan, and turns fates and rows of groups into those of plots. */
 void rho_bodies_ungroup(struct rho_tracker *tracker, struct rho_look *look,
@@ -39,8 +34,7 @@ int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan 
                              struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate by rho_bodies_rate_residual, whose result rho_bodies_locate_plot
- * returns.
+ * rate by rho_bodies_rate_residual, whose result rho_bodies_locate_plot returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m;

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * body_extents: estimates the extent of each track's body from the plots of its groups.
- */
+/* body_extents: estimates the extent of each track's body from the plots of its groups. */
 #include "rhotrack/body.h"
 
 #include "bodies.h"
@@ -18,14 +16,9 @@ float rho_bodies_prior_m2(const struct rho_tracker *tracker)
 
 enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float length_max_m)
 {
-    if (!tracker) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    if (!rho_is_within(length_max_m, 0.0f, RHO_LIMIT_BODY_M)) {
-        return RHO_ERROR_VALUE;
+    const enum rho_status status = rho_tracker_check(tracker, 1);
+    if (status != RHO_OK || !rho_is_within(length_max_m, 0.0f, RHO_LIMIT_BODY_M)) {
+        return status != RHO_OK ? status : RHO_ERROR_VALUE;
     }
     if (!RHO_BODIES && length_max_m > 0.0f) {
         return RHO_ERROR_CAPACITY;

@@ -20,10 +20,7 @@ static float heading_tolerance_rad(const struct rho_body_filter *body)
     return STEADY_RAD + body->heading_sigma_rad;
 }
 
-/*
- * Sums over a look's plots: places along the line of sight (far) and across it (side), range rates,
- * their squares and products.
- */
+/* Sums over a look's plots, of places along the line of sight (far), across it (side), rates. */
 struct look_sums {
     float n, far, side, rate, far2, cross, side2, rate2, rate_far, rate_side;
     float side_noise_m2, rate_noise_m2ps2, line_turn_m2ps2;

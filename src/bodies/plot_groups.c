@@ -159,9 +159,8 @@ static void add_plot_to_group(struct rho_groups *groups, unsigned group, uint32_
 }
 
 /*
- * Forms the groups, in the order of their first plots: one for each track, the others by place, of
- * plots that all may be of one target with each other. Plots in excluded areas stay alone, as they
- * start no track.
+ * Forms the groups, in the order of their first plots: one a track, the others by place, of plots
+ * that may all be of one target. Plots in excluded areas stay alone: they start no track.
  */
 static void form_groups(struct rho_tracker *tracker, const struct rho_look *look,
                         struct rho_work *work)

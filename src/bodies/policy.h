@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
- * changes each.
- */
+/* policy: constants that neither physics nor a parameter sets; tools/gates/mutate.py varies all. */
 #ifndef RHOTRACK_BODIES_POLICY_H
 #define RHOTRACK_BODIES_POLICY_H
 
@@ -14,20 +11,16 @@
  * and ends tracks. Twice: two targets are one, and one has two tracks, for longer.
  */
 #define SETTLED_LOOKS 30.0f
-
 /*
  * Memory of the evidence on a body, in looks: sums fade by 1 / DOUBT_MEMORY each look. Half: what
  * needs SETTLED_LOOKS is hardly reached. Twice: old evidence outlasts the cause.
  */
 #define DOUBT_MEMORY 80.0f
-
 /*
- * Sigmas that errors explain: of range rates of one target, of the velocities of two tracks of one,
- * of a body's length. Half: targets fall into several groups and tracks. Twice: neighbours with
- * other velocities are one target.
+ * Sigmas that errors explain: of range rates, lengths, velocities of two tracks. Half: targets fall
+ * into several groups and tracks. Twice: neighbours with other velocities are one target.
  */
 #define BODY_ERROR_SIGMAS 4.0f
-
 /*
  * Sigmas by which things are usually off: two plots of the longest body, a heading, velocity and
  * azimuths. Half: the ends of long bodies are groups of their own. Twice: neighbours join them.
@@ -51,31 +44,20 @@
  */
 #define LONG_LOOKS 4.0f
 #define LONG_SHARE 0.1f
-
 /*
  * Deviation of a steady heading from its mean, beside its sigma. Half: sums of range rates begin
  * anew by the noise of the heading. Twice: a turn is taken for two targets.
  */
 #define STEADY_RAD 0.1f
-
-/*
- * Largest unseen turn, over the tolerance of the heading: from one side to the other. Half: a body
- * that turns is split. Twice: cars of nearly one speed stay one.
- */
+/* Largest unseen turn, over the tolerance. Half: a turn splits a body. Twice: two cars stay one. */
 #define UNSEEN_TURN_SHARE 2.0f
-
-/*
- * Limit of chi-square in two dimensions; large, as errors of successive looks are correlated. Half:
- * wheels split a body. Twice: two targets stay one for longer.
- */
+/* Limit of chi-square; errors of looks correlate. Half: wheels split bodies. Twice: two are one. */
 #define APART_CHI2 40.0f
-
 /*
  * Least variance of places across the line of sight, as a share of their noise. Half: narrow bodies
  * that turn are split. Twice: two cars beside each other stay one.
  */
 #define SIDE_SHARE 0.2f
-
 /*
  * Least 1 - correlation^2 of places in two axes, for a plane to be fitted to the range rates. Half:
  * planes of thin bodies are of noise. Twice: slender bodies are not judged.
@@ -84,12 +66,8 @@
 
 /* duplicate_tracks.c */
 
-/*
- * Hits below which a track is new. Half: of two tracks of a long target both stay. Twice: of two
- * cars that keep close from the first one is lost.
- */
+/* A track with fewer hits is new. Half: a long target keeps two. Twice: of two cars one is lost. */
 #define NEW_HITS 20u
-
 /*
  * Distance of two new tracks of one target along the heading and across it, in longest bodies.
  * Half: a long target keeps two tracks. Twice: neighbouring lanes and followers are one target.
@@ -99,31 +77,20 @@
 
 /* plot_groups.c */
 
-/*
- * Sigmas of a plot from its track on each axis of the body. Half: a target's outer plots start
- * tracks. Twice: bodies take the plots of their neighbours.
- */
+/* Sigmas of a plot on a body. Half: its outer plots start tracks. Twice: it takes a neighbour's. */
 #define BODY_GATE_SIGMAS 3.0f
-
 /*
  * Largest turn rate of a track's body, which spreads its range rates. Half: plots of a turning
  * target start tracks. Twice: those of a faster neighbour are taken.
  */
 #define TURN_RADPS 0.3f
-
-/*
- * Sigma of the turn rate of a target without a track. Half: a turning target starts two tracks.
- * Twice: neighbours of different speed start one.
- */
+/* Turn rate without a track, sigma. Half: turns start two tracks. Twice: neighbours start one. */
 #define TURN_USUAL_RADPS 0.1f
-
 /*
- * Difference of misfits below which the body that explains a plot second best contends for it.
- * Half: overlaps of two tracks of one target are missed. Twice: bodies beside each other lack the
- * plots between them.
+ * Difference of misfits below which the second best body contends for a plot. Half: overlaps of two
+ * tracks are missed. Twice: bodies beside each other lack the plots between them.
  */
 #define CONTESTED_MISFIT 6.0f
-
 /* Units of work: a plot compared with a body; with another plot; a plot or track passed over. */
 enum { TEST_UNITS = 6, PAIR_UNITS = 2, PASS_UNITS = 1 };
 

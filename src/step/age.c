@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * age: counts misses of tracks without a plot where the sensor looked, and asks of each track
- * whether it is confirmed, and whether it must go.
- */
+/* age: counts misses where the sensor looked, and asks of each track whether it is to end. */
 #include "phases.h"
 #include "rhotrack/detail/doppler_notch.h"
 
@@ -44,7 +41,8 @@ void rho_step_age(struct step *step)
         rho_removal_of_track(step, track, is_missed, &limits);
     }
     rho_life_remove_ended(tracker);
-    if (look->scan && rho_notch_sensor_has_notch(look->sensor)) {
-        rho_notch_clear_tracks(tracker);
+    const int has_notch = look->scan && rho_notch_sensor_has_notch(look->sensor);
+    for (unsigned row = 0; has_notch && row < tracker->num_tracks; row++) {
+        tracker->tracks[row].blind_percent = 0;
     }
 }

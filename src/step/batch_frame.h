@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * batch_frame: usable bearings of a frame (the scans of all passive sensors at
- * one time), and the frame in the form that a batch takes. Private to the step and the initiation
- * of bearings.
+ * batch_frame: usable bearings of a frame (the scans of all passive sensors at one time), and the
+ * frame in the form that a batch takes. Private to the step and the initiation of bearings.
  */
 #ifndef RHOTRACK_BATCH_FRAME_H
 #define RHOTRACK_BATCH_FRAME_H
@@ -16,10 +15,7 @@ static inline int is_usable_bearing(const struct rho_bearing *bearing)
            bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
 }
 
-/*
- * Number of a scan's bearings that have a place in the report's fates and in the batch.
- *   first  place of the scan's first bearing among all bearings of the frame
- */
+/* Number of a scan's bearings with a fate and a place in the batch; first: place in the frame. */
 static inline uint32_t num_bearings_with_fates(const struct rho_look *look,
                                                const struct rho_bearing_scan *scan, uint32_t first)
 {
@@ -35,10 +31,7 @@ struct batch_frame {
     uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
 };
 
-/*
- * bearing_initiation.c: fills *held from a frame with the look's fates; copies its fates back to
- * those of the look
- */
+/* bearing_initiation.c: fills *held by a frame and the look's fates; copies its fates back */
 void rho_step_frame_to_batch(const struct rho_look *look, const struct rho_frame *frame,
                              struct batch_frame *held);
 void rho_step_batch_to_report(const struct rho_look *look, const struct batch_frame *held,

@@ -110,10 +110,7 @@ static void start_found_track(struct step *step, const struct rho_passive_track 
     }
 }
 
-/*
- * Only a full batch is searched: in a shorter one ghosts may still move on straight lines. A
- * started track has the evidence of a whole batch, and is confirmed at once.
- */
+/* Searches a full batch only: in a shorter one ghosts may still move on straight lines. */
 void rho_step_initiate_bearings(struct step *step)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * bearing_looks: one sensor's bearings of a frame as a look: opened, claimed and updated.
- */
+/* bearing_looks: one sensor's bearings of a frame as a look: opened, claimed and updated. */
 #include <string.h>
 
 #include "batch_frame.h"
@@ -91,10 +89,7 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
     }
 }
 
-/*
- * *gain_nat: ln of pd times the density of the bearing as one of the track, over the density of
- * false bearings. Returns 0 where the bearing is outside of the track's gate.
- */
+/* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
 static int score_bearing(const struct rho_look *look, const struct rho_track *track, uint32_t i,
                          float *gain_nat)
 {
@@ -124,10 +119,7 @@ static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *l
     }
 }
 
-/*
- * The score of a track that the sensor covers but missed falls, even where other sensors of the
- * frame saw it.
- */
+/* The score of a track that this sensor covers and missed falls, whatever other sensors saw. */
 static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look)
 {
     const struct rho_bearing_scan *scan = look->bearings;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * begin: a step of plots or bearings begins: the report, the motion model, the order of time, and
- * what is known of the sensor of a scan of plots.
- */
+/* begin: begins a step: report, motion model, order of time, and the sensor of a scan of plots. */
 #include <string.h>
 
 #include "phases.h"

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * claim: gates the scan's plots and assigns them to tracks: at most one plot to each track.
- */
+/* claim: gates the scan's plots and assigns them to tracks: at most one plot to each track. */
 #include <string.h>
 
 #include "phases.h"
@@ -10,9 +8,8 @@
 #include "rhotrack/detail/measurement.h"
 
 /*
- * A plot's gain falls with the log of its Hough residual. The paper orders the plots of one track.
- * Between tracks residuals are compared by their ratio: by differences, a plot that fits no track
- * could displace one that fits.
+ * A plot's gain falls with the log of its Hough residual: ratios compare plots of several tracks.
+ * By differences, a plot that fits no track could displace one that fits.
  */
 static float gain_by_hough_residual(const struct rho_look *look, const struct rho_track *track,
                                     const struct rho_gate_hough *hough, const struct rho_plot *plot)

@@ -10,11 +10,9 @@ static enum rho_status check_frame(const struct rho_tracker *tracker,
                                    const struct rho_passive *passive, const struct rho_frame *frame,
                                    const struct rho_report *report)
 {
-    if (!tracker || !frame || !report) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
+    const enum rho_status status = rho_tracker_check(tracker, frame && report);
+    if (status != RHO_OK) {
+        return status;
     }
     if (!RHO_SEARCHES && passive) {
         return RHO_ERROR_CONFIG;

@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * initiate: tracks start from the plots that no track claimed.
- */
+/* initiate: tracks start from the plots that no track claimed. */
 #include "phases.h"
 
-/* Pushes the held plots, and searches for candidates with plots of this scan. */
-static void search_newest_scan(struct rho_tracker *tracker, const struct rho_look *look,
-                               struct rho_work *work)
+/* Pushes the held plots, with the learned pd. Apart: its copies are not on the search's stack. */
+static void push_scan(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    struct rho_initiator *initiator = look->initiator;
     struct rho_scan held = *look->scan;
     struct rho_sensor sensor;
     held.num_plots = look->num_gated;
@@ -17,11 +13,18 @@ static void search_newest_scan(struct rho_tracker *tracker, const struct rho_loo
         sensor.pd = rho_learning_mean_pd(look);
     }
     /* the push cannot fail: the step has checked the pointers and the time */
-    (void)!rho_initiator_push(initiator, &held, look->sensor ? &sensor : 0, look->fates,
+    (void)!rho_initiator_push(look->initiator, &held, look->sensor ? &sensor : 0, look->fates,
                               &tracker->counters.plots_clutter);
     if (RHO_MAX_ECHOES > 0) {
         rho_echoes_store_ratios(look);
     }
+}
+
+/* Searches for candidates with plots of the newest scan. */
+static void search_newest_scan(struct rho_tracker *tracker, const struct rho_look *look,
+                               struct rho_work *work)
+{
+    struct rho_initiator *initiator = look->initiator;
     /* within the work that the step has left */
     const struct rho_initiator_budget before = initiator->budget;
     (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST,
@@ -88,6 +91,7 @@ void rho_step_initiate(struct step *step)
         return;
     }
     if (RHO_SEARCHES && look->initiator) {
+        push_scan(step->tracker, look);
         search_newest_scan(step->tracker, look, &step->work);
         start_from_candidates(step);
     } else {

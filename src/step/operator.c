@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * operator: starts, ends, renumbers and freezes tracks by an operator's hand, between two steps.
- */
+/* operator: starts, ends, renumbers and freezes tracks by hand, between two steps. */
 #include "rhotrack/operator.h"
 
 #include "phases.h"
@@ -165,11 +163,8 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
     if (status != RHO_OK) {
         return status;
     }
-    if (RHO_MAX_EXCLUDED_AREAS == 0) {
-        return RHO_ERROR_CONFIG;
-    }
-    if (track->status == RHO_TRACK_TENTATIVE) {
-        return RHO_ERROR_STATE;
+    if (RHO_MAX_EXCLUDED_AREAS == 0 || track->status == RHO_TRACK_TENTATIVE) {
+        return RHO_MAX_EXCLUDED_AREAS == 0 ? RHO_ERROR_CONFIG : RHO_ERROR_STATE;
     }
     if (rho_track_is_frozen(track) == (is_frozen != 0)) {
         return RHO_OK;

@@ -52,10 +52,7 @@ void rho_step_initiate_bearings(struct step *step);
 /* settle.c: brings the tracks to the time that the report has */
 void rho_step_settle(struct step *step);
 
-/*
- * report.c: merges the hypotheses of each track into one estimate at the step's time; reports
- * fates, counters and tracks, or the tracks alone.
- */
+/* report.c: merges each track's hypotheses at the step's time; reports all, or the tracks alone */
 void rho_step_merge_estimates(const struct step *step);
 void rho_step_report(const struct step *step);
 void rho_step_report_tracks(const struct step *step);
@@ -88,9 +85,8 @@ void rho_step_share_merged(struct rho_tracker *tracker, const struct rho_look *l
 void rho_step_split_bodies(struct step *step, const struct rho_scan *scan);
 
 /*
- * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room,
- * and the track has ended. A full tracker ends its lowest tentative track for a track of a higher
- * score.
+ * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room, and the
+ * track has ended. A full tracker ends its lowest tentative track for a track of a higher score.
  */
 int rho_step_admit(struct step *step, struct rho_track *track,
                    const struct rho_track_limits *limits);

@@ -1,35 +1,29 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
- * changes each.
- */
+/* policy: constants that neither physics nor a parameter sets; tools/gates/mutate.py varies all. */
 #ifndef RHOTRACK_STEP_POLICY_H
 #define RHOTRACK_STEP_POLICY_H
 
 /* Several files */
 
 /*
- * Standard deviations by which a speed or a width is surely above its limit. Half: noise of a few
- * plots ends fast tracks and splits bodies. Twice: false tracks stay fast for longer, and cars
- * abreast keep one track.
+ * Sigmas by which a speed or width is surely above its limit. Half: noise of a few plots ends fast
+ * tracks and splits bodies. Twice: false tracks stay fast, and cars abreast keep one track.
  */
 #define SURE_SIGMAS 2.0f
 
 /* begin.c */
 
 /*
- * White acceleration noise of tracks, over accel_max_mps2, kept up for a second: most targets
- * manoeuvre below their limit. Half: tracks lag in turns, and lose plots. Twice: gates are wider,
- * and estimates noisier.
+ * White acceleration noise over accel_max_mps2, for a second: most targets manoeuvre below it.
+ * Half: tracks lag in turns, and lose plots. Twice: gates are wider, estimates noisier.
  */
 #define STEADY_SHARE 0.5f
 
 /* bearing_looks.c */
 
 /*
- * Standard deviations by which a bearing may lie outside of its sensor's sector: its noise may take
- * it there. Half: one bearing in forty from the edge is left out. Twice: bearings that the sensor
- * cannot have measured are taken.
+ * Sigmas by which noise may take a bearing out of its sensor's sector. Half: one bearing in forty
+ * from the edge is left out. Twice: bearings that cannot have been measured are taken.
  */
 #define BEARING_SIGMAS 4.0f
 
@@ -53,12 +47,10 @@
 /* merged_plots.c */
 
 /*
- * Least hits of tracks that share a plot: a newer track may be a second one of the same target.
- * Half: second tracks live on shared plots. Twice: pairs that meet soon after their starts swap or
- * end.
+ * Least hits of tracks that share a plot; a newer one may be a second track of the target. Half:
+ * second tracks live on shared plots. Twice: pairs that meet soon after starts swap or end.
  */
 #define SHARING_HITS 10
-
 /*
  * ln of the probability that a pair stays merged for another scan. Half: a pair that never parts is
  * two tracks for some 100 scans. Twice: for some 25, and slow crossings lose a track.
@@ -68,56 +60,40 @@
 /* paper_starts.c */
 
 /*
- * Standard deviations within which a line's plots are, from the motion fitted to its voters. Half:
- * a third of the target's plots are left out, and lines are too short. Twice: plots of clutter near
- * the line start tracks.
+ * Sigmas of a line's plots from the motion fitted to its voters. Half: a third of the target's
+ * plots are left out. Twice: plots of clutter near the line start tracks.
  */
 #define LINE_SIGMAS 3.0f
 
 /* speed_limits.c */
 
-/*
- * Standard deviations of a speed that is surely below the slowest target's. Half: slow targets are
- * ended by noise. Twice: tracks of standing objects stay for longer.
- */
+/* Sigmas below the slowest speed. Half: noise ends slow targets. Twice: standing objects stay. */
 #define SLOW_SIGMAS 3.0f
-
 /*
  * Speed of a track that is too fast, over v_max_mps, where its sigma is small. Half: targets at
  * v_max end, as its estimate may be a little larger. Twice: false tracks at twice v_max stay.
  */
 #define FAST_SHARE 1.1f
-
 /*
- * Successive updates at such speeds that end a track. Half: one wrong plot ends it. Twice: false
- * tracks stay for three more scans.
+ * Successive fast updates that end a track. Half: one wrong plot does. Twice: false ones stay.
  */
 #define FAST_UPDATES 3
 
 /* split_bodies.c */
 
-/*
- * Largest width of one body, over the length of the longest body. Half: lorries are split. Twice:
- * cars abreast keep one track.
- */
+/* Widest body over the longest one. Half: lorries are split. Twice: cars abreast keep one track. */
 #define WIDEST_SHARE 0.3f
-
 /*
  * Plots of a body before its width counts: with fewer, its first heading may still be wrong. Half:
  * bodies seen from the side first are split. Twice: two targets have one track for longer.
  */
 #define SETTLED_PLOTS 100.0f
-
 /*
  * Least distance of the outermost plots of two targets, over the largest length or width of one.
  * Half: one body's plots are divided. Twice: a split waits until the targets are a body apart.
  */
 #define PARTED_SHARE 0.5f
-
-/*
- * The same of range rates, in their standard deviations. Half: noise divides one body's plots.
- * Twice: targets whose speeds differ little have one track for longer.
- */
+/* The same of range rates, in sigmas. Half: noise divides bodies. Twice: similar speeds are one. */
 #define PARTED_SIGMAS 5.0f
 
 #endif

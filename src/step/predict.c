@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * predict: moves tracks to the time of the step.
- *
- * A track that no look can see stays at its own time: scans of other sectors or sensors change no
- * bit of its estimate.
+ * predict: moves tracks to the time of the step. A track that no look can see stays at its own
+ * time: scans of other sectors or sensors change no bit of its estimate.
  */
 #include "phases.h"
 

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * report: reports the tracks at the step's time, and counts the fates of the plots.
- */
+/* report: reports the tracks at the step's time, and counts the fates of the plots. */
 #include <string.h>
 
 #include "phases.h"

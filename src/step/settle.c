@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * settle: brings the tracks to the time that the report has, after new tracks have started: tracks
- * of images end, each track has one estimate, bodies are updated and split.
- */
+/* settle: after starts, images end, each track has one estimate, bodies are updated and split. */
 #include "phases.h"
 
 void rho_step_settle(struct step *step)

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * speed_limits: tracks that move as no target does.
- */
+/* speed_limits: tracks that move as no target does. */
 #include "phases.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"

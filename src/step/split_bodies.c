@@ -29,8 +29,7 @@ static float separating_value(enum rho_body_split why, const struct body_plot *a
 }
 
 /*
- * Sums the track's plots that are in no other track's gate to means on either side of the middle
- * between the outermost ones. 0: they are too near to show two targets.
+ * Means of the track's own plots on either side of their middle. 0: too near to show two targets.
  */
 static int divide_plots(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
                         enum rho_body_split why, struct body_side sides[2])

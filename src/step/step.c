@@ -11,11 +11,10 @@ static enum rho_status check_scan(const struct rho_tracker *tracker,
                                   const struct rho_initiator *initiator,
                                   const struct rho_scan *scan, const struct rho_report *report)
 {
-    if (!tracker || !scan || !report || (scan->num_plots && !scan->plots)) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
+    const enum rho_status status =
+        rho_tracker_check(tracker, scan && report && (scan->num_plots == 0 || scan->plots));
+    if (status != RHO_OK) {
+        return status;
     }
     if (!RHO_SEARCHES && initiator) {
         return RHO_ERROR_CONFIG;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * track_starts: adds started tracks to the tracker, where there is room for one: within a
- * step, or between two steps.
- */
+/* track_starts: adds tracks to the tracker where there is room, in a step or between two steps. */
 #include <float.h>
 #include <string.h>
 
@@ -34,9 +31,8 @@ unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_ca
 }
 
 /*
- * Row of the lowest-ranked tentative track below the score, which gives way to a new track;
- * RHO_MAX_TRACKS: there is none. Rank is the score, or, after coast_scans_max misses in a row, the
- * score's fall from its maximum.
+ * Row of the lowest tentative track below the score, which gives way to a new one; RHO_MAX_TRACKS:
+ * none. Rank: the score, or, after coast_scans_max misses in a row, its fall from the maximum.
  */
 static unsigned lowest_tentative(const struct rho_tracker *tracker, int32_t score_mnat)
 {
@@ -116,10 +112,7 @@ static enum rho_status resume_for_start(struct rho_tracker *tracker, struct rho_
                : RHO_ERROR_VALUE;
 }
 
-/*
- * CAPACITY where the tracker is full, and no track can give way, or the report cannot list it as
- * ended. Told before the start, which takes hypotheses from the pool.
- */
+/* CAPACITY: no track can give way, or be listed; told before a start takes hypotheses. */
 static enum rho_status check_room(const struct step *step, int32_t score_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -189,9 +182,8 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
 }
 
 /*
- * 1 where the place and velocity of an estimate are within their limits, and its covariance is one:
- * variances of open axes within their limits, elements of closed axes 0, positive definite but for
- * rounding.
+ * 1 where an estimate is within its limits, and its covariance is one: variances of open axes
+ * within their limits, elements of closed axes 0, positive definite but for rounding.
  */
 static int is_usable_estimate(const struct rho_kalman *estimate)
 {

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * update: updates sensor health and the learned noise by the assigned plots, and then the tracks by
- * their plots.
- */
+/* update: updates sensor health and learned noise by the assigned plots, and then the tracks. */
 #include "phases.h"
 
 /*

@@ -52,13 +52,6 @@ void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look)
     }
 }
 
-void rho_notch_clear_tracks(struct rho_tracker *tracker)
-{
-    for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        tracker->tracks[row].blind_percent = 0;
-    }
-}
-
 struct detection rho_notch_detection(const struct rho_look *look, const struct rho_track *track,
                                      struct detection elsewhere)
 {
@@ -70,8 +63,7 @@ struct detection rho_notch_detection(const struct rho_look *look, const struct r
                           velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
                               most_mps * most_mps;
     /*
-     * a target that stands stays in the notch: successive looks without a plot are no independent
-     * evidence, and the miss probability is almost 1
+     * a target that stands stays in the notch: misses are no independent evidence, nearly certain
      */
     return (struct detection){rho_log(seen + NOTCH_PD * blind),
                               may_stand ? -1.0e-4f : rho_log(1.0f - seen)};

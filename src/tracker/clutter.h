@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * clutter: how dense is clutter here? Background, echoes and strobes, second plots of targets; and
- * plots that start no track. Private to the rooms from src/tracker on.
+ * clutter: how dense is clutter here, and which plots start no track? Private from src/tracker on.
  */
 #ifndef RHOTRACK_CLUTTER_H
 #define RHOTRACK_CLUTTER_H
@@ -29,21 +28,13 @@ void rho_clutter_count_unclaimed(struct rho_tracker *tracker, const struct rho_l
 void rho_clutter_smooth_mean(float *mean, float newest);
 
 /* echo_clutter.c (RHO_MAX_ECHOES): the clutter map in a step */
-void rho_echoes_init(struct rho_tracker *tracker);
-int rho_echoes_are_sound(const struct rho_tracker *tracker);
 int rho_echoes_is_sound_track(const struct rho_track *track);
 /* Computes the density of echoes and strobes at the plots of a scan (first part), before claims. */
 void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look,
                         struct rho_work *work);
-/*
- * ln of the clutter density at a plot with echoes, strobes and second plots, over that without; 0
- * in later parts of a scan.
- */
+/* ln of the density with echoes, strobes, second plots over that without; 0 in later parts. */
 float rho_echoes_log_ratio_at(const struct rho_look *look, uint32_t row);
-/*
- * Stores rho_echoes_log_ratio_at of the scan's plots with the held plots in
- * the window.
- */
+/* Stores rho_echoes_log_ratio_at of the scan's plots with the held plots in the window. */
 void rho_echoes_store_ratios(const struct rho_look *look);
 /* Updates the clutter map with the scan's plots, after new tracks have started. */
 void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look);
@@ -58,22 +49,16 @@ void rho_echoes_store_start(struct rho_track *track);
 /* Sums into a new track the probabilities that its candidate's plots were returns of echoes. */
 void rho_echoes_sum_returns(const struct rho_look *look, const struct rho_candidate *candidate,
                             struct rho_track *track);
-/* True where a track was found to be of a moving target, and its returns left the clutter map. */
-int rho_echoes_is_moving_target(const struct rho_track *track);
 
 /*
- * second_plots.c (RHO_MAX_ECHOES): near claimed plots, before tracks age, learns how often second
- * plots of a target come, raises the clutter density there, and ends the younger of two tracks of
- * one target
+ * second_plots.c (RHO_MAX_ECHOES): learns how often second plots of a target come near claimed
+ * ones, raises the clutter density there, and ends the younger of two tracks of one target
  */
 struct step;
 void rho_second_plots_take_look(struct step *step);
 int rho_second_plots_are_sound(const struct rho_second_plots *table);
 int rho_second_is_sound_track(const struct rho_track *track);
-/*
- * After a start: raises the clutter density at the window's plots near the candidate's plots, as
- * they may be second plots of the same target.
- */
+/* After a start: raises the density at the window's plots near the candidate's: second plots. */
 void rho_second_plots_raise_window(const struct rho_look *look, struct rho_work *work,
                                    const struct rho_candidate *candidate);
 

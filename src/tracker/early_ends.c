@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * early_ends: where many tracks end soon after they were confirmed, new ones
- * need more evidence.
+ * early_ends: where many tracks end soon after they were confirmed, new ones need more evidence.
  *
  * The track score compares a target with clutter that is independent from scan to scan. It does not
  * model objects that move as targets do and are seldom seen: second-time-around echoes, sidelobes,

@@ -148,10 +148,7 @@ static unsigned range_part(float range_m, float range_max_m)
     return part < (float)STROBE_RANGES ? (unsigned)part : STROBE_RANGES - 1u;
 }
 
-/*
- * Plots per radian and metre of range that a strobe in this direction and the two beside it adds; 0
- * where there is no strobe.
- */
+/* Plots a radian and metre of range that a strobe adds in three neighbouring bins; 0: no strobe. */
 static float strobe_density(const struct rho_look *look, unsigned bin, float plots,
                             float range_max_m)
 {
@@ -181,10 +178,7 @@ static float strobe_density(const struct rho_look *look, unsigned bin, float plo
                : 0.0f;
 }
 
-/*
- * Adds the clutter density of strobes at plots. A jammer's strobe lies in one direction, at all
- * ranges, and is too narrow for the initiator's density map.
- */
+/* Adds a jammer's strobes, one direction at all ranges: too narrow for the initiator's map. */
 static void add_strobe_densities(struct rho_tracker *tracker, const struct rho_look *look,
                                  float range_max_m)
 {
@@ -348,10 +342,7 @@ static int is_in_set(const uint32_t *set, uint32_t row)
     return (set[row / 32] >> row % 32 & 1u) != 0;
 }
 
-/*
- * True where a track is of a target: it is as fast as v_min, or, where targets may stand still, it
- * has left its start place once, which is remembered in the track.
- */
+/* True where a track is as fast as v_min, or, where targets may stand, has ever left its start. */
 static int moves_as_target(const struct rho_tracker *tracker, struct rho_track *track)
 {
     const float *state = track->kalman.state;
@@ -367,9 +358,8 @@ static int moves_as_target(const struct rho_tracker *tracker, struct rho_track *
 }
 
 /*
- * Updates each echo with the plot that it explains best, and sets the plot's bit in `taken`. Where
- * targets may stand still, no echo is updated with a plot of a target. An echo faster than v_min is
- * dropped.
+ * Updates each echo with the plot that it explains best, which is `taken`; with none of a target
+ * where targets may stand still. An echo faster than v_min is dropped.
  */
 static void update_echoes(struct rho_tracker *tracker, const struct rho_look *look,
                           const uint32_t *targets, uint32_t *taken)
@@ -395,7 +385,7 @@ static void update_echoes(struct rho_tracker *tracker, const struct rho_look *lo
             const struct echo_view view = rho_clutter_map_view(look->sensor, echo->x_m, echo->y_m);
             const struct rate_ratios ratios = echo_rate_ratios(look, echo, &view, plot);
             const float exact = ratios.share * ratios.exact;
-            if (map->rate_plots >= LOOKS_REMEMBERED) {
+            if (map->rate_plots >= (float)LEARNED_MAX) {
                 map->rate_plots *= 0.5f;
                 map->exact_plots *= 0.5f;
             }
@@ -487,21 +477,6 @@ void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)
         echo->region = rho_clutter_map_region_at(look->sensor, range_max_m, plot->x_m, plot->y_m);
     }
     rho_clutter_map_age_counts(map, turn_share);
-}
-
-void rho_echoes_init(struct rho_tracker *tracker)
-{
-    rho_clutter_map_init(&tracker->clutter_map, tracker->config.v_min_mps);
-}
-
-int rho_echoes_is_moving_target(const struct rho_track *track)
-{
-    return track->has_taken_back;
-}
-
-int rho_echoes_are_sound(const struct rho_tracker *tracker)
-{
-    return rho_clutter_map_is_sound(&tracker->clutter_map);
 }
 
 int rho_echoes_is_sound_track(const struct rho_track *track)

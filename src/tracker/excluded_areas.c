@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * excluded_areas: places in which no plot starts a track.
- */
+/* excluded_areas: places in which no plot starts a track. */
 #include "rhotrack/operator.h"
 
 #include <string.h>
@@ -24,11 +22,9 @@ static int area_contains(const struct rho_extent *area, float x_m, float y_m)
 
 enum rho_status rho_tracker_exclude_area(struct rho_tracker *tracker, const struct rho_extent *area)
 {
-    if (!tracker || !area) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
+    const enum rho_status status = rho_tracker_check(tracker, area != 0);
+    if (status != RHO_OK) {
+        return status;
     }
     if (!is_usable_area(area)) {
         return RHO_ERROR_VALUE;
@@ -42,11 +38,9 @@ enum rho_status rho_tracker_exclude_area(struct rho_tracker *tracker, const stru
 
 enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m, float y_m)
 {
-    if (!tracker) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
+    const enum rho_status status = rho_tracker_check(tracker, 1);
+    if (status != RHO_OK) {
+        return status;
     }
     unsigned kept = 0;
     for (unsigned i = 0; i < tracker->num_excluded; i++) {

@@ -13,14 +13,9 @@
 
 enum rho_status rho_tracker_set_clutter(struct rho_tracker *tracker, float per_m2)
 {
-    if (!tracker) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    if (!rho_is_within(per_m2, 0.0f, 1e30f)) {
-        return RHO_ERROR_VALUE;
+    const enum rho_status status = rho_tracker_check(tracker, 1);
+    if (status != RHO_OK || !rho_is_within(per_m2, 0.0f, 1e30f)) {
+        return status != RHO_OK ? status : RHO_ERROR_VALUE;
     }
     tracker->clutter_per_m2 = per_m2;
     return RHO_OK;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * learned_pd: the detection probability that is used of a sensor, where it was learned to be lower
- * than the stated one. sensor_learning.c counts the looks and hits.
- */
+/* learned_pd: the pd that is used, by the looks and hits that sensor_learning.c counts. */
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "sensors.h"

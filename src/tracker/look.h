@@ -40,10 +40,7 @@ struct rho_work {
     int is_partial;                  /* the budget has left out something */
 };
 
-/*
- * One sensor's detections at one time, as a step takes them: a scan of plots, a part of a large
- * one, or one scan of a frame of bearings. Opened once, const for all that ask it.
- */
+/* A scan of plots, a part of a large one, or one scan of a frame; const for all that ask it. */
 struct rho_look {
     const struct rho_tracker *tracker;       /* whose tracks it looks at */
     const struct rho_scan *scan;             /* its plots; NULL: bearings */
@@ -88,6 +85,14 @@ struct rho_look {
 static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
 {
     return tracker->magic == RHO_TRACKER_MAGIC;
+}
+
+/* NULL where the tracker or another argument of a call is, STATE before rho_tracker_init. */
+static inline enum rho_status rho_tracker_check(const struct rho_tracker *tracker, int has_others)
+{
+    return !tracker || !has_others          ? RHO_ERROR_NULL
+           : !rho_tracker_is_ready(tracker) ? RHO_ERROR_STATE
+                                            : RHO_OK;
 }
 
 /* Largest track score either way, mnat: sums of two scores fit 32 bits. */

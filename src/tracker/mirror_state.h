@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * mirror_state: mirror image of a target's state in a wall. Private to src/tracker and
- * src/walls.
- */
+/* mirror_state: image of a target's state in a wall. Private to src/tracker and src/walls. */
 #ifndef RHOTRACK_MIRROR_STATE_H
 #define RHOTRACK_MIRROR_STATE_H
 

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * notch_learning: the Doppler notch of a sensor of which none was stated, from looks and hits by
- * interval of range rate.
- */
+/* notch_learning: the Doppler notch of a sensor that states none, from hits by range rate. */
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"

@@ -24,9 +24,8 @@ static unsigned strip_of_x(const struct rho_tracker_strips *strips, float x_m)
 }
 
 /*
- * Lays the strips over the extent in x of the held plots. Counting sort: starts[s + 2] first counts
- * the plots of strip s; after the sums starts[s + 1] is where the next plot of strip s goes, and so
- * ends as the start of strip s + 1.
+ * Lays the strips over the held plots' extent in x. Counting sort: starts[s + 2] counts strip s;
+ * after the sums starts[s + 1] is where its next plot goes, and ends as the start of s + 1.
  */
 static void sort_plots_by_strip(struct rho_tracker *tracker, const struct rho_look *look)
 {

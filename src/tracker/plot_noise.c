@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * plot_noise: how noisy is a plot? The plot states its sigmas. Contributors, in their order: the
- * sensor's learned notch and noise, and the factor of a suspect sensor.
- */
+/* plot_noise: how noisy is a plot? As stated, by learned notch and noise, by a suspect sensor. */
 #include "sensors.h"
 
 void rho_look_open_noise(struct rho_tracker *tracker, struct rho_look *look)

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * plot_scores: log-likelihood ratio of a plot, a track's against clutter; and the pairs of a track
- * and a plot or bearing that enter the assignment.
- */
+/* plot_scores: likelihood ratios of plots against clutter, and the pairs of the assignment. */
 #include "clutter.h"
 #include "plots.h"
 #include "rhotrack/detail/approx.h"

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * plots: the plots of a look near a place, the work that a track may spend on them, and their
- * scores. Private to the rooms from src/tracker on.
- */
+/* plots: plots of a look near a place, their work and scores. Private from src/tracker on. */
 #ifndef RHOTRACK_PLOTS_H
 #define RHOTRACK_PLOTS_H
 
@@ -131,10 +128,7 @@ void rho_score_remove_row(struct rho_tracker *tracker, unsigned row);
 /* Solves the assignment, and counts plots that were dropped for lack of room in gates. */
 void rho_score_solve(struct rho_tracker *tracker);
 
-/*
- * Log-likelihood ratio of a plot in a track's Kalman gate, against clutter. log_density:
- * rho_clutter_log_at_track of the track
- */
+/* Log-likelihood ratio of a plot in a Kalman gate; log_density: rho_clutter_log_at_track. */
 float rho_score_plot(const struct rho_look *look, const struct rho_track *track,
                      const struct rho_gate_result *result, float log_density, uint32_t row);
 /* ln of the probability of a miss; 0 where the scan counts no miss of the track. */

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
- * changes each.
- */
+/* policy: constants that neither physics nor a parameter sets; tools/gates/mutate.py varies all. */
 #ifndef RHOTRACK_TRACKER_POLICY_H
 #define RHOTRACK_TRACKER_POLICY_H
-
-/* Sensors and tracks. */
 
 /* sensor_health.c */
 
@@ -26,8 +21,7 @@
 /*
  * Mean NIS per dimension of a sensor's plots: above the first the sensor is biased, below the
  * second it agrees. It is 1 in theory, and about 2 with manoeuvres and too small covariances. Half:
- * sensors are suspect as targets turn, or never trusted again. Twice: a bias of three sigmas
- * passes.
+ * sensors are suspect as targets turn, or never trusted again. Twice: three sigmas of bias pass.
  */
 #define CHI2_HIGH 4.0f
 #define CHI2_GOOD 2.5f
@@ -38,15 +32,11 @@
  */
 #define RIGHTER 0.7f
 /*
- * Largest sigma ratio at which two sensors' normalised distances are comparable. Half: no sensor is
- * as fine as itself, and equal witnesses do not count. Twice: a coarse sensor, with which all plots
- * agree, counts as a witness.
+ * Largest ratio of sigmas at which two sensors' NIS are comparable. Half: equal witnesses do not
+ * count. Twice: a coarse sensor, with which all plots agree, counts as a witness.
  */
 #define COARSER 1.9f
-/*
- * Largest factor on the sigmas of a suspect sensor's plots. Half: a large bias pulls tracks. Twice:
- * its plots fit any track.
- */
+/* Largest factor on a suspect sensor's sigmas. Half: its bias pulls tracks. Twice: it fits any. */
 #define FACTOR_MAX 20.0f
 
 /* sensor_learning.c */
@@ -63,25 +53,22 @@
  */
 #define CUT2 2.25f
 /*
- * The gain of the n-th innovation is GAIN / (n + INNOVATIONS_PRIOR). Half: noise is learned at half
- * the speed, or jumps at the first innovations. Twice: the factor varies more by chance, or is
- * learned late.
+ * The n-th innovation's gain is GAIN / (n + INNOVATIONS_PRIOR). Half: noise is learned at half the
+ * speed, or jumps at first. Twice: the factor varies more by chance, or is learned late.
  */
 #define GAIN 3.0f
 #define INNOVATIONS_PRIOR 40.0f
 /*
- * Limit of ln f, either way: 10 times the sigma, as far as learn_noise_max goes. Half: noise of
- * more than three times the stated sigma is not learned. Twice: a larger ln f than can be used is
- * learned, and returns late.
+ * Limit of ln f, either way: 10 times the sigma, as learn_noise_max. Half: noise of three times the
+ * stated sigma is not learned. Twice: an ln f beyond use is learned, and returns late.
  */
 #define LOG_NOISE_MAX 4.6f
 /*
- * Memory: looks at a ring of range at which looks and hits are halved, as are the sums of second
- * plots and echoes, and innovations at which their count stops. Half: what was learned is less
- * exact. Twice: changes are learned late.
+ * Memory: looks of a ring, second plots and echoes at which sums are halved, innovations at which
+ * their count stops; with a tenth of them noise is used, as ln f then varies by a tenth. Half: what
+ * was learned is less exact. Twice: changes are learned late.
  */
 #define LEARNED_MAX 1000
-/* Fewest innovations for learned noise to be used: a tenth, as ln f then varies by a tenth. */
 #define INNOVATIONS_MIN (LEARNED_MAX / 10)
 /*
  * Least share of the plot's noise in an innovation's variance; the rest is of the prediction. Half:
@@ -89,9 +76,8 @@
  */
 #define NOISE_SHARE_MIN 0.4f
 /*
- * Largest ln f, either way, at which noise counts as stated: AS_STATED, plus CHANCE over the root
- * of the number of innovations. Half: noise is changed by chance. Twice: noise of 1.3 times the
- * stated sigma stays unlearned.
+ * Largest ln f, either way, of noise as stated: AS_STATED, and CHANCE over the root of innovations.
+ * Half: chance changes noise. Twice: noise of 1.3 times the stated sigma stays unlearned.
  */
 #define AS_STATED 0.25f
 #define CHANCE 4.0f
@@ -118,9 +104,8 @@
 /* notch_learning.c */
 
 /*
- * Largest pd in a learned notch, over the pd at faster range rates: in all its intervals, and in
- * the fastest of a new one, which it fills only in part. Half: notches with some plots are not
- * found. Twice: any pd is a notch.
+ * Largest pd in a learned notch over that at faster rates: in all its intervals; in the fastest of
+ * a new one, filled in part. Half: notches with some plots are not found. Twice: any pd is a notch.
  */
 #define BLIND_SHARE 0.65f
 #define BLIND_LAST_SHARE 0.85f
@@ -135,28 +120,20 @@
  */
 #define BLIND_SURELY 4.0f
 /*
- * Looks that are needed in a notch; twice as many in the interval that a notch in use may lose, and
- * three times as many above a notch. Half: slow targets that fade look like a notch. Twice: a notch
- * is found late.
+ * Looks needed in a notch; twice as many in an interval that it may lose, three times as many above
+ * it. Half: slow targets that fade look like a notch. Twice: a notch is found late.
  */
 #define BLIND_LOOKS 20.0f
 #define BLIND_USED_LOOKS (BLIND_LOOKS * 2.0f)
 #define FASTER_LOOKS (BLIND_LOOKS * 3.0f)
 /*
- * Square of the upper limit of the first interval of range rates, m^2/s^2; those of the others
- * double. Half or twice: each interval is another one, and the fastest notch is 0.7 or 1.4 times as
- * wide.
+ * Squared upper limit of the first interval of range rates, m^2/s^2; each next one doubles. Half or
+ * twice: each interval is another one, and the fastest notch 0.7 or 1.4 times as wide.
  */
 #define RATE_MIN2 0.0625f
-/*
- * Looks in an interval from one search for a notch to the next. Half: twice as many searches.
- * Twice: a notch is found some looks later.
- */
+/* Looks between searches for a notch. Half: twice as many searches. Twice: it is found later. */
 #define LOOKS_A_NOTCH 8u
-/*
- * Fewest intervals of a notch: targets that stop look like fewer. Half: stopped targets make a
- * notch. Twice: notches below 2.8 m/s are not found.
- */
+/* Fewest intervals of a notch. Half: stopped targets make one. Twice: none below 2.8 m/s is. */
 #define RATES_LEAST 4u
 
 /* coverage.c */
@@ -180,10 +157,7 @@
 
 /* blind_looks.c */
 
-/*
- * Detection probability of a target in the Doppler notch. Half or twice: a plot of a track in the
- * notch weighs less or more by ln 2.
- */
+/* pd of a target in the Doppler notch. Half or twice: a plot there weighs less or more by ln 2. */
 #define NOTCH_PD 0.03f
 /*
  * Expected clutter plots in its gate up to which a track coasts in the notch, or hidden
@@ -209,20 +183,14 @@
  */
 #define SHORTER_SMOOTHING (INTERVAL_SMOOTHING * 2.0f)
 #define LONGER_SMOOTHING (INTERVAL_SMOOTHING / 4.0f)
-/*
- * Upper limit of a new interval over the smoothed one. Half: intervals never grow. Twice: an outage
- * counts as a long interval.
- */
+/* Longest new interval over the smoothed one. Half: none ever grows. Twice: an outage counts. */
 #define INTERVAL_LONGEST 2.0f
 /*
  * Scan intervals without a look in the fixed direction after which another one is chosen. Half: a
  * short outage changes the direction. Twice: a new sector's interval is known late.
  */
 #define INTERVALS_GONE 16.0f
-/*
- * Scan intervals by which a look may be late. Half: jitter of the antenna ends tracks. Twice: gone
- * targets stay a scan longer.
- */
+/* Scan intervals that a look may be late. Half: jitter ends tracks. Twice: gone targets stay. */
 #define OVERDUE 0.5f
 /*
  * Scan intervals by which a track that no sensor covers ends before coast_scans_max of them. Half:
@@ -248,9 +216,8 @@
 /* early_ends.c */
 
 /*
- * Detection probability of a seldom seen object that is no target, over that of a target; and the
- * evidence of a hit, ln(1 / SELDOM). Half or twice: hits weigh too little or too much against
- * misses.
+ * Detection probability of a seldom seen object over that of a target; and the evidence of a hit,
+ * ln(1 / SELDOM). Half or twice: hits weigh too little or too much against misses.
  */
 #define SELDOM 0.3f
 #define HIT_NAT 1.2039728f
@@ -259,10 +226,7 @@
  * Twice: targets are confirmed later where aircraft come and go.
  */
 #define TRUE_PER_FALSE 10.0f
-/*
- * Prior number of established tracks. Half: the first early ends ask for more evidence. Twice: more
- * false tracks come before evidence is asked for.
- */
+/* Prior number of established tracks. Half: early ends weigh more. Twice: more false ones come. */
 #define ESTABLISHED_PRIOR 2.0f
 /*
  * Standard deviations by which the count of tracks that ended early may exceed its mean. Half:
@@ -311,8 +275,6 @@
  */
 #define TURNS_SURELY 0.9f
 
-/* Clutter and plots. */
-
 /* expected_clutter.c */
 
 /*
@@ -320,7 +282,6 @@
  * follows changing clutter later. Twice: it follows the scatter of single scans.
  */
 #define NEWEST_SCAN_WEIGHT 0.1f
-
 /*
  * Radius of the circle that stands for a track's gate, sigmas of the track's place: all but one
  * per cent of its plots. Half: a quarter of the clutter is expected there. Twice: four times.
@@ -335,7 +296,6 @@
  * map for longer, and a neighbouring target's track may still end.
  */
 #define TARGET_TRACK_HITS 12
-
 /*
  * Weight of the prior of a learned rate, in looks or plots: of exact range rates, of a sensor's
  * second plots, and of its rate in that of a track. Half: the first plots decide. Twice: sensors
@@ -343,48 +303,38 @@
  */
 #define RATE_PRIOR_LOOKS 10.0f
 
-/* Looks or plots at which a sensor's learned sums are halved. */
-#define LOOKS_REMEMBERED ((float)LEARNED_MAX)
-
 /* echo_clutter.c */
 
 /*
- * Sigmas of both places by which a track has left its start; five are too few where one of its
- * first plots was clutter. Half: wandering tracks of clutter count as moved. Twice: slow targets
- * stay in the map for longer.
+ * Sigmas by which a track has left its start; five are too few with clutter among its plots. Half:
+ * wandering tracks of clutter count as moved. Twice: slow targets stay in the map for longer.
  */
 #define MOVED_SIGMAS 8.0f
-
 /*
  * Limit of the NIS of an echo's plot: e^-9 is cut off. Half: plots of an echo's edge raise no
  * density. Twice: nothing changes but the work, as the density there is nearly 0.
  */
 #define ECHO_CHI2 18.0f
-
 /*
  * Largest variance of an echo's place, as a share of its sensor's squared maximum range: a tenth of
  * the range. Half: echoes are forgotten in shorter silences. Twice: lost echoes cost work.
  */
 #define ECHO_UNKNOWN_SHARE 0.01f
-
 /*
  * Least share of the clutter density at a plot that an echo must explain to be updated with it.
  * Half: echoes are updated with chance plots. Twice: weak echoes start anew beside their place.
  */
 #define ECHO_WEIGHT_MIN 0.3f
-
 /*
  * Share of echoes' plots with exactly the range rate of the echo's own speed, before it is learned.
  * Half: masts are learned later. Twice: so are trees and water.
  */
 #define ECHO_EXACT_PRIOR 0.3f
-
 /*
  * Sigma of the range rates of half the other plots; the rest have any rate. Half: the rates of
  * swaying trees count as any. Twice: targets as slow as 2 m/s count as echoes.
  */
 #define ECHO_RATE_SIGMA_MPS 1.0f
-
 /*
  * Plots of three neighbouring directions above which a jammer's strobe is sought, and times the
  * usual number that they must exceed. Half: roads and coasts that run towards the sensor are
@@ -392,7 +342,6 @@
  */
 #define STROBE_PLOTS_MIN 8.0f
 #define STROBE_TIMES_USUAL 6.0f
-
 /*
  * Parts of the range, three quarters of which a strobe fills. Half: a few clusters in one direction
  * are a strobe. Twice: none is found, as the clutter map has a byte for the parts with plots.
@@ -407,43 +356,36 @@
  * distances. Twice: a sensor's own distances are learned later.
  */
 #define SECOND_BINS_PRIOR 4.0f
-
 /*
  * Second plots of a claimed plot before any is learned. Half: the first second plots start tracks.
  * Twice: targets beside others start later at first.
  */
 #define SECOND_RATE_PRIOR 0.01f
-
 /*
  * Looks at which a track's sums are halved: its aspect changes faster than the sensor. Half: the
  * rate scatters. Twice: it lags behind a target that turns.
  */
 #define TRACK_LOOKS_REMEMBERED 50.0f
-
 /*
  * Fewest hits of a track that teaches second plots: a neighbouring target has a track of its own by
  * then. Half: neighbours count as second plots. Twice: short tracks teach nothing.
  */
 #define TEACHER_HITS 8
-
 /*
  * ln of the odds that two tracks are of one target: above it the younger track ends; also the
  * largest change by one scan. Half: tracks of close targets end. Twice: second tracks stay longer.
  */
 #define ONE_TARGET_END_NAT 3.0f
-
 /*
  * Lower bound of these odds. Half: targets that were apart for long are one after a short approach.
  * Twice: a second track that once looked like a target stays longer.
  */
 #define ONE_TARGET_LEAST_NAT (-4.0f)
-
 /*
  * Evidence for one target by a merged plot, to which two near targets come, too. Half: two tracks
  * that share all plots stay longer. Twice: crossing targets lose a track.
  */
 #define MERGED_NAT 0.3f
-
 /*
  * Evidence for one target where the younger track has no plot, and the older one's is outside its
  * gate. Half: second tracks without plots stay longer. Twice: three misses end a new track.
@@ -457,13 +399,11 @@
  * places get no more than empty ones. Twice (a quarter): the last tracks score few plots.
  */
 #define KEPT_PARTS 2u
-
 /*
  * A track takes at most a quarter of the rest. Half: the first two tracks take most of it. Twice:
  * tracks in dense places score few of their plots although work is left.
  */
 #define FREE_PARTS 4u
-
 /*
  * Units of work, as measured: a plot scored by one hypothesis, in addition to move the hypothesis
  * to the plot's own time; the gate of a Kalman filter; in addition for a measured velocity in two
@@ -490,13 +430,8 @@ enum {
  * pairs. Half: the first pairs decide on the cell. Twice: the cell is learned later.
  */
 #define CELL_WEIGHT_FIRST 4.0f
-
-/*
- * Largest weight that pairs add up to. Half: the cell scatters more. Twice: it follows a changed
- * sensor later.
- */
+/* Largest weight that pairs add up to. Half: the cell scatters more. Twice: it follows later. */
 #define CELL_WEIGHT_MAX 200.0f
-
 /*
  * Limit of the logarithm of a learned cell either way: cells of 0.3 to 19 sigmas. Half: only cells
  * of 0.8 to 7 sigmas are learned. Twice: wrong pairs may drive the cell to any size.
@@ -510,19 +445,16 @@ enum {
  * at a wall's ends start tracks. Twice: plots beside the wall count as ghosts.
  */
 #define BESIDE_WALL_SIGMAS 3.0f
-
 /*
  * Fewest hits of a track whose images are looked for; one with fewer may be of clutter. Half: plots
  * at images of clutter start no tracks. Twice: images start tracks before their targets count.
  */
 #define IMAGED_HITS 3
-
 /*
  * Limit of the NIS of a track and an image in place and velocity: the 99.9 % quantile of chi-square
  * in four dimensions. Half: tracks of images stay. Twice: targets near images end.
  */
 #define IMAGE_CHI2 18.5f
-
 /*
  * Hits over looks below which also an established track may be an image. Half: images that are
  * often seen stay. Twice: every track that agrees with an image ends.

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * reflectors: mirror images of tracks in the walls that the tracker knows. Unclaimed plots of an
- * image start no track, and tracks of images end.
- */
+/* reflectors: unclaimed plots at images of tracks in known walls start none; image tracks end. */
 #include "rhotrack/reflectors.h"
 
 #include <string.h>
@@ -32,17 +29,12 @@ enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
                                            const struct rho_reflector *reflectors,
                                            unsigned num_reflectors)
 {
-    if (!tracker || (num_reflectors > 0 && !reflectors)) {
-        return RHO_ERROR_NULL;
+    const enum rho_status status = rho_tracker_check(tracker, num_reflectors == 0 || reflectors);
+    if (status != RHO_OK) {
+        return status;
     }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    if (num_reflectors > RHO_MAX_REFLECTORS) {
-        return RHO_ERROR_CAPACITY;
-    }
-    if (!are_usable_walls(reflectors, num_reflectors)) {
-        return RHO_ERROR_VALUE;
+    if (num_reflectors > RHO_MAX_REFLECTORS || !are_usable_walls(reflectors, num_reflectors)) {
+        return num_reflectors > RHO_MAX_REFLECTORS ? RHO_ERROR_CAPACITY : RHO_ERROR_VALUE;
     }
     memset(tracker->reflectors, 0, sizeof tracker->reflectors);
     for (unsigned i = 0; i < num_reflectors; i++) {
@@ -80,10 +72,7 @@ static void reflect_vector(const struct wall *wall, float *x, float *y)
     *y = kept * wall->along_y - *y;
 }
 
-/*
- * Reflects a covariance: rotates it into the axes of the wall, changes the signs of the rows and
- * columns of components across the wall, and rotates it back.
- */
+/* Reflects a covariance: in the wall's axes the signs of components across the wall change. */
 static void reflect_covariance(const struct wall *wall, float p[21])
 {
     const float c = wall->along_x, s = wall->along_y;

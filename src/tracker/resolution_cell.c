@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * resolution_cell: the distance at which a sensor no longer resolves two targets and
- * gives one plot; stated, or learned from pairs of near tracks that get one merged plot or two
- * plots.
+ * resolution_cell: the distance at which a sensor no longer resolves two targets and gives one
+ * plot; stated, or learned from pairs of near tracks that get one merged plot or two plots.
  *
  * Two targets d apart are not resolved with the probability (W. Koch, G. van Keuk, Multiple
  * Hypothesis Track Maintenance with Possibly Unresolved Measurements, IEEE Transactions on

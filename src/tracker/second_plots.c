@@ -11,10 +11,7 @@
 #include "sensors.h"
 #include "step.h"
 
-/*
- * Distances of second plots from first ones on an axis: upper bounds of the bins in standard
- * deviations, and prior shares of the bins.
- */
+/* Bins of the distances of second plots on an axis: upper bounds in sigmas, and prior shares. */
 static const float bin_end[RHO_SECOND_BINS] = {1.0f, 2.0f, 3.0f, 4.0f, 6.0f, 8.0f, 12.0f, 16.0f};
 static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
                                                  0.1f,  0.05f, 0.03f, 0.02f};
@@ -126,10 +123,7 @@ static float one_target_probability(const struct rho_track *track)
     return 1.0f / (1.0f + rho_exp(-track->one_target_nat));
 }
 
-/*
- * Evidence for one target, ln, by a scan in which each of both tracks claimed a plot: the younger
- * track's plot is a second plot of the older's target, or of a target of its own.
- */
+/* ln evidence for one target where both have a plot: the younger's is second, or its own. */
 static float two_plots_evidence(const struct rho_look *look, const struct rho_second_plots *table,
                                 unsigned older_row, unsigned row)
 {
@@ -140,10 +134,7 @@ static float two_plots_evidence(const struct rho_look *look, const struct rho_se
     const struct bin_offset offset = plot_offset(look->sensor, first, second);
     float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
     (void)rho_score_pair_gain(look, row, track->plot, &gain_nat);
-    /*
-     * the two plots may also be swapped: the younger track's plot is the first one of the only
-     * target, or, with two targets, each made the other's plot
-     */
+    /* or swapped: the younger has the only target's first plot, or each made the other's plot */
     float ways = 1.0f, older_ways = 1.0f;
     if (rho_score_pair_gain(look, older_row, older->plot, &own_nat) &&
         rho_score_pair_gain(look, older_row, track->plot, &swap_nat)) {
@@ -178,10 +169,7 @@ static float one_plot_evidence(const struct rho_look *look, const struct rho_sec
     const int is_in_olders_gate = rho_score_pair_gain(look, older_row, plot, &older_gain_nat);
     if (older->plot < 0) {
         if (!is_in_olders_gate) {
-            /*
-             * at the older track's place it may be a second plot of its target, which is no
-             * evidence; elsewhere it is the younger's target or clutter
-             */
+            /* a second plot near the older track's place is no evidence; else it speaks for two */
             struct rho_plot place = look->scan->plots[plot];
             place.x_m = older->kalman.state[0];
             place.y_m = older->kalman.state[1];
@@ -200,10 +188,9 @@ static float one_plot_evidence(const struct rho_look *look, const struct rho_sec
 
 static void add_one_target_evidence(struct rho_track *track, float nat)
 {
-    nat = nat < ONE_TARGET_END_NAT ? nat : ONE_TARGET_END_NAT;
-    track->one_target_nat += nat > -ONE_TARGET_END_NAT ? nat : -ONE_TARGET_END_NAT;
-    track->one_target_nat =
-        track->one_target_nat > ONE_TARGET_LEAST_NAT ? track->one_target_nat : ONE_TARGET_LEAST_NAT;
+    nat = rho_smaller(nat, ONE_TARGET_END_NAT);
+    track->one_target_nat += rho_larger(nat, -ONE_TARGET_END_NAT);
+    track->one_target_nat = rho_larger(track->one_target_nat, ONE_TARGET_LEAST_NAT);
 }
 
 static void test_younger_track(struct step *step, const struct rho_second_plots *table,
@@ -359,7 +346,7 @@ void rho_second_plots_take_look(struct step *step)
     if (!(looks > 0.0f)) {
         return;
     }
-    const float keep = table->looks >= LOOKS_REMEMBERED ? 0.5f : 1.0f;
+    const float keep = table->looks >= (float)LEARNED_MAX ? 0.5f : 1.0f;
     table->looks = keep * table->looks + looks;
     table->plots = keep * table->plots + found.plots;
     for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {

@@ -49,10 +49,7 @@ void rho_turn_note_look(struct rho_tracker *tracker, struct rho_look *look)
     look->count = health->count;
 }
 
-/*
- * Takes the lowest start threshold and the highest confirm threshold of all sensors' initiators:
- * the tracks of one radar are tested at the scans of another radar, too.
- */
+/* Lowest start and highest confirm threshold of all radars: each tests the others' tracks, too. */
 void rho_turn_merge_thresholds(struct rho_tracker *tracker, const struct rho_look *look)
 {
     if (look->row) {

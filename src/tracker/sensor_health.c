@@ -63,10 +63,7 @@ static int is_coarser(const struct rho_tracker_look *health, const struct rho_tr
 /* Numbers of sensors that are heard, not suspect, and see enough tracks. */
 struct witnesses {
     unsigned num; /* that agree with the tracks */
-    /*
-     * witnesses against a biased sensor: agreeing and no coarser; less biased and of about the same
-     * noise; agreeing or less biased, but coarser
-     */
+    /* agreeing, no coarser; less biased, of about the same noise; either, but coarser */
     unsigned agreeing, equal, coarser;
 };
 

@@ -52,9 +52,8 @@ static float usable_sigma_factor(const struct rho_tracker *tracker,
         return 1.0f;
     }
     const float factor = rho_exp(0.5f * log_noise);
-    const float least =
-        factor > tracker->config.learn_noise_min ? factor : tracker->config.learn_noise_min;
-    return least < tracker->config.learn_noise_max ? least : tracker->config.learn_noise_max;
+    return rho_smaller(rho_larger(factor, tracker->config.learn_noise_min),
+                       tracker->config.learn_noise_max);
 }
 
 static uint16_t percent_of_factor(float factor)
@@ -94,10 +93,7 @@ struct innovation {
     int is_clear; /* enough of its variance is plot noise */
 };
 
-/*
- * Innovation of a plot along a direction (x, y), over its sigma. noise_m2 is the variance of the
- * noise that is learned, up_m2 that of the height's noise, which is not.
- */
+/* Innovation along (x, y) over its sigma; noise_m2: variance that is learned; up_m2: height's. */
 static struct innovation innovation_along(const struct rho_kalman *steady,
                                           const struct rho_plot *plot, float x, float y,
                                           float noise_m2, float up_m2)
@@ -119,10 +115,7 @@ static struct innovation innovation_along(const struct rho_kalman *steady,
                                noise_m2 >= NOISE_SHARE_MIN * variance_m2};
 }
 
-/*
- * Stores an innovation in the track. Returns half of its squared difference from the last one on
- * the axis, cut at CUT2; below 0 where it is not to be used.
- */
+/* Stores an innovation. Half of its squared step on the axis, cut at CUT2; below 0: not usable. */
 static float store_innovation(struct rho_track *track, int axis, const struct innovation *now)
 {
     const float off = now->sigmas - (float)track->shown[axis] * (1.0f / SHOWN_PER_SIGMA);
@@ -144,10 +137,7 @@ static int update_log_noise(float *log_noise, float excess, float gain)
     return 1;
 }
 
-/*
- * Learns a sensor's noise from a plot of a steady track. factors are those learned so far, on the
- * variances along the line of sight and across it.
- */
+/* Learns a sensor's noise from a steady track's plot; factors: so far, along and across. */
 static void learn_noise_from_plot(const struct rho_look *look, struct rho_track *track,
                                   const struct rho_plot *plot, const float factors[2])
 {
@@ -186,10 +176,7 @@ static void learn_noise_from_plot(const struct rho_look *look, struct rho_track 
         (uint16_t)(learned->innovations + (is_used && learned->innovations < LEARNED_MAX));
 }
 
-/*
- * Counts the look that followed a hit when the same sensor next sees the track: as a miss where it
- * missed the track meanwhile, as a hit otherwise.
- */
+/* Counts the look after a hit when the sensor next sees the track, by whether it had missed it. */
 static void learn_pd_from_look(const struct rho_look *look, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == look->scan->sensor_id;

@@ -87,14 +87,9 @@ static void swap_rows(struct rho_tracker_sensor *one, struct rho_tracker_sensor 
 
 enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
 {
-    if (!tracker || !sensor) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    if (!rho_sensors_is_usable(sensor)) {
-        return RHO_ERROR_CONFIG;
+    const enum rho_status status = rho_tracker_check(tracker, sensor != 0);
+    if (status != RHO_OK || !rho_sensors_is_usable(sensor)) {
+        return status != RHO_OK ? status : RHO_ERROR_CONFIG;
     }
     unsigned row = rho_sensors_row(tracker, sensor->sensor_id);
     if (row >= tracker->num_sensors) {
@@ -111,15 +106,10 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
 
 enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t sensor_id)
 {
-    if (!tracker) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    const unsigned row = rho_sensors_row(tracker, sensor_id);
-    if (row >= tracker->num_sensors) {
-        return RHO_ERROR_STATE;
+    const enum rho_status status = rho_tracker_check(tracker, 1);
+    const unsigned row = status == RHO_OK ? rho_sensors_row(tracker, sensor_id) : 0;
+    if (status != RHO_OK || row >= tracker->num_sensors) {
+        return status != RHO_OK ? status : RHO_ERROR_STATE;
     }
     struct rho_tracker_sensor *rows = tracker->sensors;
     tracker->num_sensors--;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * sensors: the table of sensors, and what is learned of each: health, noise, pd, notch, resolution.
- * Private to the rooms from src/tracker on.
- */
+/* sensors: the table of sensors, and what is learned of each. Private from src/tracker on. */
 #ifndef RHOTRACK_SENSORS_H
 #define RHOTRACK_SENSORS_H
 
@@ -43,10 +40,7 @@ void rho_learning_apply_notch(const struct rho_look *look);
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look);
 int rho_learning_is_sound(const struct rho_tracker_learned *learned);
 
-/*
- * learned_pd.c: true where sensors are learned: with hypotheses alone, as one Kalman filter takes
- * manoeuvres for noise
- */
+/* learned_pd.c: sensors are learned with hypotheses alone: else manoeuvres count as noise */
 int rho_learning_is_on(const struct rho_tracker_config *config);
 /* Ring of range in which a track is. */
 unsigned rho_learning_ring(const struct rho_sensor *sensor, const struct rho_track *track);

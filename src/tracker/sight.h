@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * sight: would this look see this track? Coverage, sectors of a turn, Doppler notch, pd by range.
- * Private to the rooms from src/tracker on.
- */
+/* sight: would this look see this track? Private to the rooms from src/tracker on. */
 #ifndef RHOTRACK_SIGHT_H
 #define RHOTRACK_SIGHT_H
 
@@ -10,10 +7,7 @@
 
 /* sight.c: sets log_pd and log_miss by the look's sensor, or by the tracker's default pd */
 void rho_look_set_pd(struct rho_look *look);
-/*
- * True where the look may see a track at all. A bearing may be anybody's: a frame may see every
- * track that is not frozen
- */
+/* True where the look may see a track at all; a frame: every track that is not frozen. */
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
 int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track);
@@ -23,10 +17,7 @@ struct detection {
 };
 struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track);
 
-/*
- * coverage.c: true where a plot, within its noise, is in the sensor's stated coverage. sensor NULL:
- * it covers all
- */
+/* coverage.c: true where a plot, within its noise, is in the stated coverage; NULL covers all */
 int rho_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
                             uint32_t measures);
 /* True where a bearing is in the sensor's stated sector, or nearer to it than the margin. */
@@ -53,21 +44,13 @@ int rho_turn_was_seen_by(const struct rho_track *track, int32_t sensor_id);
 void rho_turn_merge_thresholds(struct rho_tracker *tracker, const struct rho_look *look);
 /* True where the track claimed a plot in the previous sector of the same turn of the antenna. */
 int rho_turn_saw_before(const struct rho_look *look, const struct rho_track *track);
-/*
- * True where the antenna has passed the end of the track's gate in this scan, or, with an antenna
- * that does not turn, the scan covers the track's place.
- */
+/* True where the antenna has passed the track's gate, or, if not turning, the scan covers it. */
 int rho_turn_has_passed(const struct rho_look *look, const struct rho_track *track);
 /* Number of scans of this sector's width in one turn of the antenna; 1 where it does not turn. */
 float rho_turn_num_scans(const struct rho_look *look);
 
-/*
- * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets blind_percent of the
- * tracks in view, before plots are scored
- */
+/* blind_looks.c (RHO_DOPPLER_NOTCH): blind_percent of tracks in view, before plots are scored */
 void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look);
-/* Sets blind_percent of all tracks to 0, at the end of a step. */
-void rho_notch_clear_tracks(struct rho_tracker *tracker);
 /* Detection of a track that may be in the sensor's notch; elsewhere: outside of the notch. */
 struct detection rho_notch_detection(const struct rho_look *look, const struct rho_track *track,
                                      struct detection elsewhere);

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * step: one step, and what ends its tracks. Private to the rooms from src/tracker on.
- */
+/* step: one step, and what ends its tracks. Private to the rooms from src/tracker on. */
 #ifndef RHOTRACK_STEP_H
 #define RHOTRACK_STEP_H
 
@@ -26,10 +24,7 @@ struct step {
 /* retrodiction.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
 /* True of an out-of-sequence scan within late_max_s that is not its sensor's newest one again. */
 int rho_retrodiction_accepts(const struct rho_look *look);
-/*
- * After an out-of-sequence scan: tracks, step and report return to the newest time, and tracks that
- * cannot return end. 0: the scan was in sequence.
- */
+/* Then tracks, step and report return to the newest time, or end. 0: the scan was in sequence. */
 int rho_retrodiction_return(struct step *step);
 
 /* track_life.c: limits of score and misses that confirm and end the tracks of a step */
@@ -63,9 +58,8 @@ void rho_manoeuvres_learn(struct rho_tracker *tracker, const struct rho_look *lo
 void rho_manoeuvres_reset(struct rho_tracker *tracker, int64_t time_us);
 
 /*
- * unseen_tracks.c: tracks that no sensor looks at. Returns 1 where a track is to end, as it was not
- * observed for too long. Also smooths the time between the track's hits, and lowers its score where
- * it is doubtful after a long silence.
+ * unseen_tracks.c: 1 where a track is to end, as no sensor observed it for too long. Smooths the
+ * time between its hits, and lowers its score where it is doubtful after a long silence.
  */
 int rho_unseen_update(const struct rho_look *look, struct rho_track *track, int is_missed,
                       const struct rho_track_limits *limits);
@@ -76,18 +70,13 @@ int rho_unseen_is_lost(const struct rho_tracker *tracker, const struct rho_track
 enum rho_track_filter rho_tracker_filter(const struct rho_tracker_config *config);
 int rho_tracker_is_usable(const struct rho_tracker_config *config);
 
-/*
- * reflectors.c (RHO_MAX_REFLECTORS): gives unclaimed plots at the mirror images of tracks the fate
- * GHOST, before new tracks start
- */
+/* reflectors.c (RHO_MAX_REFLECTORS): unclaimed plots at images of tracks become GHOST */
 void rho_images_mark_plots(const struct rho_look *look, struct rho_work *work);
 /* Ends tracks that move as the mirror image of another track, after new tracks have started. */
 void rho_images_end_tracks(struct step *step);
 int rho_images_are_sound(const struct rho_tracker *tracker);
 
-/*
- * excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): gives unclaimed plots in excluded areas the fate GHOST
- */
+/* excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): unclaimed plots in excluded areas become GHOST */
 void rho_areas_mark_plots(struct rho_tracker *tracker, const struct rho_look *look,
                           struct rho_work *work);
 int rho_areas_hold_plot(const struct rho_look *look, uint32_t plot);

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * track: life cycle, score and state estimate of one track. The filter is chosen at the start: a
- * Kalman filter, input estimation, or hypotheses.
- */
+/* track: life cycle, score and estimate of one track; its filter is chosen at the start. */
 #include "rhotrack/detail/track.h"
 
 #include <string.h>
@@ -134,10 +131,7 @@ static int num_velocities_of(const struct rho_track_plot *seen,
     return !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement->has_z ? 3 : 2;
 }
 
-/*
- * Updates a state at the plot's time with position, velocity and range rate, as far as measured;
- * the range rate comes last, as it is linearised at the updated position.
- */
+/* Updates a state by what a plot measured; the range rate last, linearised at the new position. */
 static enum rho_status update_state_by_plot(struct rho_kalman *kalman,
                                             const struct rho_track_plot *seen,
                                             const struct rho_track_model *model)
@@ -222,10 +216,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
                                const struct rho_track_model *model)
 {
     struct rho_hypotheses_estimate estimate;
-    /*
-     * presence of inputs is decided after all bearings of a step: a bearing measures nothing along
-     * its line of sight, so that bearings of several sensors are needed
-     */
+    /* a bearing measures nothing along its line of sight: inputs need those of several sensors */
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
         rho_input_decide(&track->input, model->input);
         copy_input_estimate(track);
@@ -270,10 +261,7 @@ static enum rho_status update_filter(struct rho_track *track, const struct rho_t
     return status;
 }
 
-/*
- * Starts the filter that the model asks for from the track's Kalman estimate: hypotheses, else
- * input estimation, else Kalman.
- */
+/* Starts the filter that the model asks for from the track's Kalman estimate. */
 static enum rho_status start_filter(struct rho_track *track, const struct rho_track_model *model)
 {
     const enum rho_track_filter filter = model->hypotheses ? RHO_TRACK_HYPOTHESES
@@ -329,11 +317,8 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
                                 const struct rho_track_plot *plots, unsigned num_plots,
                                 const struct rho_track_model *model, int32_t score_mnat)
 {
-    if (!track || !plots || !model) {
-        return RHO_ERROR_NULL;
-    }
-    if (num_plots < 1) {
-        return RHO_ERROR_VALUE;
+    if (!track || !plots || !model || num_plots < 1) {
+        return track && plots && model ? RHO_ERROR_VALUE : RHO_ERROR_NULL;
     }
     const struct rho_track_plot *last = &plots[num_plots - 1];
     struct rho_track start;
@@ -434,9 +419,7 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     } else {
         status = rho_kalman_predict(&track->kalman, dt_s, model->noise_density);
     }
-    if (status == RHO_OK) {
-        track->time_us = time_us;
-    }
+    track->time_us = status == RHO_OK ? time_us : track->time_us;
     return status;
 }
 
@@ -454,12 +437,10 @@ enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
         status = rho_hypotheses_move(model->hypotheses, track->slot, time_us);
     }
     if (status == RHO_OK) {
-        status =
-            rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us), 0.0f);
+        const float dt_s = rho_seconds_between(track->time_us, time_us);
+        status = rho_kalman_predict(&track->kalman, dt_s, 0.0f);
     }
-    if (status == RHO_OK) {
-        track->time_us = time_us;
-    }
+    track->time_us = status == RHO_OK ? time_us : track->time_us;
     return status;
 }
 
@@ -505,11 +486,8 @@ enum rho_status rho_track_commit_scan(struct rho_track *track,
                                       const struct rho_track_model *model)
 {
     struct rho_hypotheses_outcome outcome;
-    if (!track || !scan || !model) {
-        return RHO_ERROR_NULL;
-    }
-    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        return RHO_ERROR_STATE;
+    if (!track || !scan || !model || !RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return track && scan && model ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     enum rho_status status = rho_hypotheses_commit(model->hypotheses, track->slot, scan, &outcome);
     if (status != RHO_OK) {

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * track_evidence: the probabilities that a track's plots of the last scan are its own, are shared
- * with other tracks, or are clutter.
- */
+/* track_evidence: probabilities that a track's plots are its own, are shared, or are clutter. */
 #include "look.h"
 #include "rhotrack/detail/approx.h"
 

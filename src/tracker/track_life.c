@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * track_life: the end of a track, and the thresholds that confirm and end tracks.
- */
+/* track_life: the end of a track, and the thresholds that confirm and end tracks. */
 #include "clutter.h"
 #include "plots.h"
 #include "policy.h"
@@ -68,12 +66,11 @@ void rho_life_apply(const struct step *step, struct rho_track *track,
     const int is_missed_out = track->misses_in_row >= limits->misses_in_row_max;
     struct rho_track_limits own = *limits;
     /*
-     * The target of an established track that has moved may be hidden behind something. Its track
-     * ends later, and its score is held: misses of a hidden target are no evidence, and two plots
-     * should confirm its return.
+     * The target of an established track that has moved may be hidden: its track ends later, and
+     * its score is held, as misses are no evidence then, and two plots should confirm its return.
      */
     if ((is_low || is_missed_out) && rho_life_is_established(track) &&
-        (RHO_MAX_ECHOES == 0 || rho_echoes_is_moving_target(track)) &&
+        (RHO_MAX_ECHOES == 0 || track->has_taken_back) &&
         rho_clutter_in_gate(&step->look, track) <= COAST_CLUTTER_MAX) {
         const float misses = HIDE_SHARE * (float)own.misses_in_row_max;
         const int32_t least_mnat = track->score_max_mnat - most_mnat;

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * tracker_setup: initialises and reconfigures a tracker. src/step/step.c processes a scan.
- */
+/* tracker_setup: initialises and reconfigures a tracker. src/step/step.c processes a scan. */
 #include "rhotrack/tracker.h"
 
 #include <stddef.h>
@@ -9,6 +7,7 @@
 
 #include "clutter.h"
 #include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/recurring_clutter_map_operations.h"
 #include "step.h"
 
 #define ALL_PLANES (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
@@ -111,18 +110,16 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     memset(tracker, 0, sizeof *tracker);
     tracker->config = copy;
     if (RHO_MAX_ECHOES > 0) {
-        rho_echoes_init(tracker);
+        rho_clutter_map_init(&tracker->clutter_map, copy.v_min_mps);
     }
     return begin_tracking(tracker);
 }
 
 enum rho_status rho_tracker_restart(struct rho_tracker *tracker)
 {
-    if (!tracker) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
+    const enum rho_status status = rho_tracker_check(tracker, 1);
+    if (status != RHO_OK) {
+        return status;
     }
     const float body_max_m = tracker->bodies.length_max_m, clutter = tracker->clutter_per_m2;
     /* config, counters and work stand between the two */
@@ -141,14 +138,9 @@ enum rho_status rho_tracker_restart(struct rho_tracker *tracker)
 enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
                                         const struct rho_tracker_config *config)
 {
-    if (!tracker || !config) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    if (!rho_tracker_is_usable(config)) {
-        return RHO_ERROR_CONFIG;
+    enum rho_status status = rho_tracker_check(tracker, config != 0);
+    if (status != RHO_OK || !rho_tracker_is_usable(config)) {
+        return status != RHO_OK ? status : RHO_ERROR_CONFIG;
     }
     if (tracker->num_tracks > 0 &&
         rho_tracker_filter(config) != rho_tracker_filter(&tracker->config)) {
@@ -156,7 +148,7 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
     }
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
         const struct rho_imm_model model = motion_model(config);
-        const enum rho_status status = rho_hypotheses_set_model(&tracker->hypotheses, &model);
+        status = rho_hypotheses_set_model(&tracker->hypotheses, &model);
         if (status != RHO_OK) {
             return status;
         }

@@ -117,7 +117,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            (RHO_MAX_REFLECTORS == 0 || rho_images_are_sound(tracker)) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || rho_areas_are_sound(tracker)) &&
            (!RHO_BODIES || rho_bodies_are_sound(tracker)) &&
-           (RHO_MAX_ECHOES == 0 || rho_echoes_are_sound(tracker)) &&
+           (RHO_MAX_ECHOES == 0 || rho_clutter_map_is_sound(&tracker->clutter_map)) &&
            (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ||
             (rho_hypotheses_is_sound(&tracker->hypotheses) && has_own_slots(tracker)));
 }

@@ -77,10 +77,7 @@ static struct expected_looks expected_looks_at(const struct rho_look *look,
         if (!pace->is_heard) {
             continue;
         }
-        /*
-         * an undescribed sensor covers all; that of bearing scans may be elsewhere than described:
-         * the place moves along
-         */
+        /* an undescribed sensor covers all; the site of bearings may be another than described */
         const int is_seen =
             i >= tracker->num_sensors ||
             rho_measurement_covers(known, 0.0f, 0.0f, x_m + (known->x_m - pace->x_m),

@@ -40,16 +40,11 @@ void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float
 void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float velocity_mps[2],
                                     const float covariance[3]);
 
-/*
- * Rotates a covariance of x and y into the body's axes: along, cross term, across. Constant cost.
- */
+/* Rotates a covariance of x and y into the body's axes: along, cross, across. Constant cost. */
 void rho_body_rotate_covariance(const struct rho_body_filter *body, const float xx_yx_yy[3],
                                 float axes[3]);
 
-/*
- * Upper bound of the variance along the body, for gates: the estimate, and a share of the prior
- * that falls with the number of plots.
- */
+/* Bound of the variance along the body, for gates: with a share of the prior that falls. */
 float rho_body_along_bound_m2(const struct rho_body_filter *body);
 
 /* Covariance of a random place on the body, in x and y: xx, yx, yy. Constant cost. */
@@ -66,16 +61,12 @@ struct rho_body_look {
 };
 
 /*
- * The mean of n plots has this share of the variance that the mean of n random places on the body
- * would have: it falls with n as a share of the most plots that a look ever had, as scatterers stay
- * the same. Constant cost.
+ * Share of the variance of a mean of n random places that a mean of n plots has: it falls with n
+ * over the most plots of any look, as scatterers stay the same. Constant cost.
  */
 float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned n);
 
-/*
- * Updates the extent by the plots of one look, after the reference point was updated with them.
- * Constant cost.
- */
+/* Updates the extent by a look's plots, after the reference point was updated. Constant cost. */
 void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look *look);
 
 /* Fills *shape with length, width, heading and their sigmas. Constant cost. */

@@ -5,9 +5,8 @@
  *
  * A radar that suppresses standing clutter sees no target within notch_mps of zero Doppler, nor
  * within notch_mps of a multiple of its blind speed (struct rho_sensor). Range rates are those over
- * ground: the motion of the radar itself is subtracted. If an estimate's range rate is
- * r ~ N(m, s^2), looks are blind with the probability q = P(r in the notch), so a miss has the
- * probability
+ * ground: the motion of the radar itself is subtracted. If an estimate's range rate r is N(m, s^2),
+ * looks are blind with the probability q = P(r in the notch), so a miss has the probability
  *
  *      L = 1 - pd + pd q
  *
@@ -28,10 +27,7 @@
 extern "C" {
 #endif
 
-/*
- * Speed up to which a target may be standing, as a multiple of the notch's half width and of the
- * speed's sigma.
- */
+/* Speed up to which a target may stand, over the notch's half width and over the speed's sigma. */
 #define RHO_NOTCH_STAND_WIDTHS 2.0f
 
 /* A look that yields no plot of a target. */

@@ -84,18 +84,12 @@ struct rho_track {
     /* input estimation: bearings have come since the presence of inputs was last decided */
     uint8_t is_undecided;
     uint16_t slot; /* slot in the pool of hypotheses */
-    /*
-     * the estimate; of hypotheses the one of the last rho_track_merge_estimates, since then
-     * predicted without noise
-     */
+    /* the estimate; of hypotheses the last merged one, since then predicted without noise */
     struct rho_kalman kalman;
     float accel_mps2[3]; /* estimate; 0 with a plain Kalman filter */
     /* of hypotheses: of the manoeuvring model; else 1 where an input is present, 0 where not */
     float maneuver_probability;
-    /*
-     * for the Hough gate: velocities after the last update and the one before, and the number of
-     * updates (saturates)
-     */
+    /* Hough gate: velocities after the last two updates, and the number of updates (saturates) */
     float newest_mps[3], before_mps[3];
     uint8_t num_velocities;
     uint8_t was_confirmed; /* the track has been confirmed at least once */
@@ -119,19 +113,13 @@ struct rho_track {
     float returns[RHO_ECHO_HIT_CLASSES];
     uint8_t has_taken_back; /* the returns were subtracted from the map */
     uint8_t has_moved;      /* the track has surely left its start place */
-    /*
-     * within a step: share of the sensor's looks that are blind to the track (doppler_notch.h), per
-     * cent
-     */
+    /* within a step: share of looks that are blind to the track (doppler_notch.h), per cent */
     uint8_t blind_percent;
     uint8_t is_frozen; /* an operator has frozen the track: it coasts, and does not end */
     float start_m[2], start_sigma_m;
     /* scans with a plot of the track, and second plots near these; both are halved now and then */
     float second_looks, second_plots;
-    /*
-     * identity of an older track that this one started beside, 0: none; ln of the odds that both
-     * are of one target
-     */
+    /* older track that this one started beside, 0: none; ln of the odds that both are one target */
     uint32_t older_id;
     float one_target_nat;
     /* within a step: least probability that a younger track beside it is of its target; 1: none */
@@ -148,16 +136,11 @@ struct rho_track_limits {
     uint8_t misses_in_row_max; /* misses in a row that drop a track */
 };
 
-/*
- * Status that follows from a status and an event by the diagram above; an event without an arrow
- * changes nothing. Constant cost.
- */
+/* Status that follows by the diagram; an event without an arrow changes nothing. Constant cost. */
 enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                             enum rho_track_event event);
 
-/*
- * Motion model of targets, and the filter of new tracks. Objects pointed to stay the caller's.
- */
+/* Motion model of targets, and the filter of new tracks. Objects pointed to stay the caller's. */
 struct rho_track_model {
     float speed_sigma_mps; /* sigma of the velocity on an axis with one measured position */
     /* density of white acceleration in a plain Kalman filter, m^2/s^3 (rho_kalman_predict) */
@@ -204,8 +187,7 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
 
 /*
  * Moves a track, which an out-of-sequence scan moved back and updated, forward to its former time
- * time_us without process noise.
- * Errors and costs as rho_track_predict. Stack: 580 bytes.
+ * time_us without process noise. Errors and costs as rho_track_predict. Stack: 580 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
                                                 const struct rho_track_model *model);
@@ -280,10 +262,7 @@ RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
 /* Subtracts loss_mnat >= 0 from the score, without counting a miss. Constant cost. */
 void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat);
 
-/*
- * Counts a miss: subtracts loss_mnat >= 0 from the score, and a confirmed track coasts. Constant
- * cost.
- */
+/* Counts a miss: subtracts loss_mnat >= 0 from the score; confirmed tracks coast. Constant cost. */
 void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat);
 
 /*

@@ -265,7 +265,7 @@ static int do_twelve_hits_make_a_target(uint16_t hits, float v_min_mps, float mo
         track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
     }
     rho_echoes_update(&tracker, &at.look);
-    return rho_echoes_is_moving_target(track);
+    return track->has_taken_back;
 }
 
 static void tracks_of_12_hits_that_moved_are_known_moving_targets(void **state)
