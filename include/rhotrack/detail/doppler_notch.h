@@ -28,10 +28,7 @@
 extern "C" {
 #endif
 
-/*
- * Speed up to which a target may be standing, as a multiple of the notch's half width and of the
- * speed's sigma.
- */
+/* Most speed of a standing target, in half widths of the notch and in the speed's sigmas. */
 #define RHO_NOTCH_STAND_WIDTHS 2.0f
 
 /* A look that yields no plot of a target. */
