@@ -54,10 +54,7 @@
 #define RHO_MAX_PLOTS RHO_CONFIG_PICK(256, 10000)
 #endif
 
-/*
- * Tracks at a time. When all are taken, the tentative track of the lowest score is dropped. 1 ..
- * 8192.
- */
+/* Tracks at a time; of more, the tentative one of the lowest score is dropped. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
 #endif
@@ -71,10 +68,7 @@
 #define RHO_MAX_HYPOTHESES RHO_CONFIG_PICK(96, 6000)
 #endif
 
-/*
- * Scans in the initiation window. More scans find tracks in denser clutter, later. RAM: linear. 3
- * .. 12.
- */
+/* Scans in the initiation window: more find tracks in denser clutter, later. 3 .. 12. */
 #ifndef RHO_MAX_SCANS
 #define RHO_MAX_SCANS RHO_CONFIG_PICK(7, 12)
 #endif
@@ -93,18 +87,14 @@
 #endif
 
 /*
- * Scans that are assembled, or wait in the reorder buffer, at a time. With 1, parts of two sensors'
- * scans that arrive interleaved displace each other. RAM: 56 bytes a plot of RHO_MAX_PLOTS each. 1
- * .. 64.
+ * Scans that are assembled, or wait in the reorder buffer. With 1, parts of two sensors' scans that
+ * arrive interleaved displace each other. RAM: 56 bytes a plot of RHO_MAX_PLOTS. 1 .. 64.
  */
 #ifndef RHO_MAX_OPEN_SCANS
 #define RHO_MAX_OPEN_SCANS RHO_CONFIG_PICK(2, 16)
 #endif
 
-/*
- * Default limit of the work of a step, in units (work_max of struct rho_tracker_config and
- * rho_initiator_config).
- */
+/* Default of work_max of rho_tracker_config and rho_initiator_config: units of work a step. */
 #ifndef RHO_WORK_MAX
 #define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 8000000)
 #endif
@@ -132,17 +122,12 @@
 
 /* Further capacities of trackers. */
 
-/*
- * Bins of one scan's neighbour look-up. More bins mean fewer distance tests. Default, embedded:
- * 2.25 a plot. RAM: 2 bytes a bin and scan. 1 .. 32767.
- */
+/* Bins of a scan's neighbour look-up: more save distance tests. RAM: 2 bytes a scan. 1 .. 32767. */
 #ifndef RHO_MAX_BINS
 #define RHO_MAX_BINS RHO_CONFIG_PICK(RHO_MAX_PLOTS < 14563 ? RHO_MAX_PLOTS * 9 / 4 : 32767, 16384)
 #endif
 
-/*
- * Candidate tracks that a search keeps before the selection; the lowest score gives way. 1 .. 4096.
- */
+/* Candidate tracks that a search keeps for the selection; the lowest give way. 1 .. 4096. */
 #ifndef RHO_MAX_CANDIDATES
 #define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 2048)
 #endif
@@ -166,57 +151,37 @@
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
 #endif
 
-/*
- * Clutter density maps of an initiator. Radars whose scans are in one window have a map each, up to
- * this number. 1 .. 8.
- */
+/* Clutter density maps of an initiator: one a radar of its window, at most. 1 .. 8. */
 #ifndef RHO_MAX_DENSITY_MAPS
 #define RHO_MAX_DENSITY_MAPS RHO_CONFIG_PICK(1, 2)
 #endif
 
-/*
- * Cells along each side of the map that remembers clutter for a hundred scans. 0 leaves it out of
- * the program (400 bytes on a Cortex-M4). RAM: 2 bytes a cell. 0 .. 1024.
- */
+/* Side of the map of a hundred scans' clutter, cells; 0: none. RAM: 2 bytes a cell. 0 .. 1024. */
 #ifndef RHO_MAX_CLUTTER_CELLS
 #define RHO_MAX_CLUTTER_CELLS RHO_CONFIG_PICK(16, 256)
 #endif
 
-/*
- * Regions of range, and as many of azimuth. The return rate of echoes is learned in each region
- * apart. RAM: 480 bytes a region. 1 .. 15.
- */
+/* Regions of range, and of azimuth, of the echoes' return rate. RAM: 480 bytes each. 1 .. 15. */
 #ifndef RHO_ECHO_REGIONS
 #define RHO_ECHO_REGIONS RHO_CONFIG_PICK(2, 8)
 #endif
 
-/*
- * Directions in which the plots of a scan are counted to find jamming strobes. A strobe is at least
- * as wide as one direction. RAM: 3 bytes each. 8 .. 4096.
- */
+/* Directions of jamming strobes: a strobe is at least one wide. RAM: 3 bytes each. 8 .. 4096. */
 #ifndef RHO_STROBE_BINS
 #define RHO_STROBE_BINS RHO_CONFIG_PICK(360, 720)
 #endif
 
-/*
- * Walls that a tracker can know to reflect (rhotrack/reflectors.h). 0 leaves images out of the
- * program (1.8 KB less on a Cortex-M4). RAM: 16 bytes each. 0 .. 64.
- */
+/* Walls that reflect (reflectors.h); 0 saves 1.8 KB on a Cortex-M4. RAM: 16 bytes each. 0 .. 64. */
 #ifndef RHO_MAX_REFLECTORS
 #define RHO_MAX_REFLECTORS RHO_CONFIG_PICK(4, 16)
 #endif
 
-/*
- * Areas that an operator can exclude (rhotrack/operator.h). 0 leaves them and frozen tracks out of
- * the program. RAM: 16 bytes each. 0 .. 64.
- */
+/* Areas that an operator can exclude; 0: none, nor frozen tracks. RAM: 16 bytes each. 0 .. 64. */
 #ifndef RHO_MAX_EXCLUDED_AREAS
 #define RHO_MAX_EXCLUDED_AREAS RHO_CONFIG_PICK(4, 16)
 #endif
 
-/*
- * Zones (rhotrack/zones.h). 0 leaves them out of a node. RAM: 8 bytes a zone and track. 0 .. 30.
- */
+/* Zones (zones.h). 0 leaves them out of a node. RAM: 8 bytes a zone and track. 0 .. 30. */
 #ifndef RHO_MAX_ZONES
 #define RHO_MAX_ZONES RHO_CONFIG_PICK(16, 30)
 #endif
@@ -230,26 +195,17 @@
 #define RHO_MAX_WINDOWS RHO_CONFIG_PICK(1, 257)
 #endif
 
-/*
- * Scans of plots that wait in a node for an open frame of bearings; one more closes the frame. RAM:
- * 56 bytes a plot of RHO_MAX_PLOTS each. 0 .. 64.
- */
+/* Scans of plots that wait for an open frame; one more closes it. RAM: 56 bytes a plot. 0 .. 64. */
 #ifndef RHO_MAX_WAITING_SCANS
 #define RHO_MAX_WAITING_SCANS RHO_CONFIG_PICK(0, 4)
 #endif
 
-/*
- * Commands and settings of an operator that wait in a node for the end of a step. 0 leaves
- * operators out of the node. RAM: 230 bytes each. 0 .. 255.
- */
+/* Operator's commands and settings that wait in a node. RAM: 230 bytes each; 0: none. 0 .. 255. */
 #ifndef RHO_MAX_COMMANDS
 #define RHO_MAX_COMMANDS RHO_CONFIG_PICK(0, 16)
 #endif
 
-/*
- * Messages that one scan may be spread over; scans of more parts are refused. RAM: 2 bytes a part
- * and open scan. 1 .. 32767.
- */
+/* Messages that a scan may be spread over. RAM: 2 bytes a part and open scan. 1 .. 32767. */
 #ifndef RHO_MAX_PARTS
 #define RHO_MAX_PARTS RHO_CONFIG_PICK(16, 512)
 #endif
@@ -265,18 +221,12 @@
 #define RHO_SEARCHES 1
 #endif
 
-/*
- * 1: a node can start tracks by the papers' methods (paper_starts.h). 0: left out of the node.
- * Default, embedded: where the library's searches are left out.
- */
+/* 1: a node can start tracks by paper_starts.h; embedded default: where RHO_SEARCHES is 0. */
 #ifndef RHO_PAPERS
 #define RHO_PAPERS RHO_CONFIG_PICK(!(RHO_SEARCHES), 1)
 #endif
 
-/*
- * 1: a node can learn walls (reflectors.h; needs RHO_MAX_REFLECTORS). 0: left out of the node (5.5
- * KB less on a Cortex-M4).
- */
+/* 1: a node can learn walls; needs RHO_MAX_REFLECTORS. 0: left out (5.5 KB on a Cortex-M4). */
 #ifndef RHO_LEARNS_REFLECTORS
 #define RHO_LEARNS_REFLECTORS RHO_CONFIG_PICK(0, RHO_MAX_REFLECTORS > 0)
 #endif
@@ -293,58 +243,41 @@
 
 /*
  * 1: the arithmetic of Kalman filters is straight code, and skips axes that are not coupled. 0:
- * loops with the same results but for the sign of a zero (1.2 KB less on a Cortex-M4 whose filter
- * is 1 alone).
+ * loops with the same results but for a zero's sign (1.2 KB less on a Cortex-M4 with filter 1).
  */
 #ifndef RHO_FAST_UPDATES
 #define RHO_FAST_UPDATES 1
 #endif
 
-/*
- * 1: two tracks share the merged plot of unresolved targets. 0: left out of the program (1 KB less
- * on a Cortex-M4).
- */
+/* 1: two tracks share the merged plot of unresolved targets. 0: left out (1 KB on a Cortex-M4). */
 #ifndef RHO_SHARES_PLOTS
 #define RHO_SHARES_PLOTS 1
 #endif
 
 /*
  * 1: tracks may claim plots of a scan beyond the first RHO_MAX_PLOTS, up to four times as many. 0:
- * left out of the program (400 bytes less on a Cortex-M4). rho_scan_assembler never makes such
- * scans.
+ * left out (400 bytes less on a Cortex-M4). rho_scan_assembler never makes such scans.
  */
 #ifndef RHO_CLAIMS_BEYOND
 #define RHO_CLAIMS_BEYOND 1
 #endif
 
-/*
- * 1: range rates may be ambiguous (range_rate_span_mps of struct rho_sensor). 0: left out of the
- * program (1.5 KB less on a Cortex-M4), and a sensor with a span is refused.
- */
+/* 1: range rates may be ambiguous. 0: left out (1.5 KB on a Cortex-M4), and spans are refused. */
 #ifndef RHO_AMBIGUOUS_RANGE_RATES
 #define RHO_AMBIGUOUS_RANGE_RATES 1
 #endif
 
-/*
- * 1: sensors may be blind at some range rates (notch_mps of struct rho_sensor). 0: left out of the
- * program (2.3 KB less on a Cortex-M4).
- */
+/* 1: sensors may be blind at some range rates. 0: left out (2.3 KB less on a Cortex-M4). */
 #ifndef RHO_DOPPLER_NOTCH
 #define RHO_DOPPLER_NOTCH 1
 #endif
 
-/*
- * 1: what each track's gate offered stays until the next step, for rho_tracker_evidence_of. 0: left
- * out of the program.
- */
+/* 1: what each track's gate offered is kept for rho_tracker_evidence_of. 0: left out. */
 #ifndef RHO_KEEPS_OFFERS
 #define RHO_KEEPS_OFFERS RHO_CONFIG_PICK(0, 1)
 #endif
 
-/*
- * 1: targets may give several plots a scan (rhotrack/body.h). 0: left out of the program. RAM: 70
- * bytes a plot, and 76 a track.
- */
+/* 1: targets may give several plots a scan (body.h). RAM: 70 bytes a plot, 76 a track. */
 #ifndef RHO_BODIES
 #define RHO_BODIES RHO_CONFIG_PICK(0, 1)
 #endif
@@ -352,9 +285,7 @@
 #define RHO_BODY_PLOTS (RHO_BODIES ? RHO_MAX_PLOTS : 1)
 #define RHO_BODY_TRACKS (RHO_BODIES ? RHO_MAX_TRACKS : 1)
 
-/*
- * 1: plots' sigmas are scaled, by the noise that hypotheses learn of a sensor, or by sensor health.
- */
+/* 1: plots' sigmas are scaled, by the noise learned of a sensor, or by sensor health. */
 #define RHO_SIGMAS_VARY ((RHO_SECTORS) || ((RHO_FILTERS)&4) != 0)
 
 /* Passive sensors. */
@@ -364,10 +295,7 @@
 #define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/*
- * Passive sensors, 2 .. 8, and frames in a batch, 4 .. 16. RAM: 17 bytes a bearing, sensor and
- * frame.
- */
+/* Passive sensors, 2 .. 8; frames in a batch, 4 .. 16. RAM: 17 bytes a bearing, sensor, frame. */
 #ifndef RHO_MAX_PASSIVE_SENSORS
 #define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 4)
 #endif
@@ -380,10 +308,7 @@
 #define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 1024)
 #endif
 
-/*
- * Fitted candidates that compete in the selection of passive tracks. RAM: 24 bytes each, and a byte
- * a sensor and frame. 8 .. 255.
- */
+/* Fitted candidates of passive tracks. RAM: 24 bytes each, 1 a sensor and frame. 8 .. 255. */
 #ifndef RHO_MAX_PASSIVE_CANDIDATES
 #define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
 #endif
@@ -393,10 +318,7 @@
 #define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/*
- * Cells of the passive Hough transform in theta, 7 .. 255, and in rho, 8 .. 4096. RAM: 2 bytes a
- * cell.
- */
+/* Cells of the passive Hough transform: theta, 7 .. 255; rho, 8 .. 4096. RAM: 2 bytes a cell. */
 #ifndef RHO_PASSIVE_THETA_CELLS
 #define RHO_PASSIVE_THETA_CELLS 36
 #endif
@@ -404,18 +326,12 @@
 #define RHO_PASSIVE_RHO_CELLS 128
 #endif
 
-/*
- * Directions by which bearings of a scan are looked up. More directions mean fewer comparisons.
- * RAM: a bit each. A multiple of 32, 32 .. 4096.
- */
+/* Directions by which bearings are looked up. RAM: a bit each. A multiple of 32, 32 .. 4096. */
 #ifndef RHO_PASSIVE_BINS
 #define RHO_PASSIVE_BINS 256
 #endif
 
-/*
- * Pairs of crossings that are remembered as fitted; others may be fitted again. RAM: 6 bytes a
- * pair. 1 .. 65536.
- */
+/* Pairs of crossings that are not fitted again. RAM: 6 bytes a pair. 1 .. 65536. */
 #ifndef RHO_PASSIVE_PAIRS
 #define RHO_PASSIVE_PAIRS 256
 #endif
@@ -427,10 +343,7 @@
 #define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
 #endif
 
-/*
- * Up to this number of points the accumulator remembers the cells that they touched, and searches
- * those alone. RAM: 18 or 32 bytes a point. 64 .. 4096.
- */
+/* Points whose cells the accumulator remembers. RAM: 18 or 32 bytes a point. 64 .. 4096. */
 #ifndef RHO_ACCUMULATOR_SPARSE_MAX
 #define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
 #endif
@@ -444,24 +357,15 @@
 #define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
 #endif
 
-/*
- * Bytes behind a row of the accumulator: rows are searched in blocks of 64 cells, read as 80 with
- * their margins. A multiple of 4.
- */
+/* Bytes behind a row, which is read by 64 cells and their margins, 80 in all. A multiple of 4. */
 #define RHO_ACCUMULATOR_PADDING 84
 
-/*
- * Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two,
- * 256 .. 4194304.
- */
+/* Cells with votes of the papers' methods. RAM: 8 bytes. A power of two, 256 .. 4194304. */
 #ifndef RHO_MAX_HOUGH_CELLS
 #define RHO_MAX_HOUGH_CELLS RHO_CONFIG_PICK(4096, 131072)
 #endif
 
-/*
- * Pairs of plots of one scan and the next that the papers' methods hold at a time. RAM: 32 bytes a
- * pair. 16 .. 65534.
- */
+/* Pairs of successive plots of the papers' methods. RAM: 32 bytes a pair. 16 .. 65534. */
 #ifndef RHO_MAX_HOUGH_KERNELS
 #define RHO_MAX_HOUGH_KERNELS RHO_CONFIG_PICK(256, 16384)
 #endif

@@ -51,6 +51,7 @@
  *   ghost                 a crossing of bearings at which there is no target
  *   oracle                in experiments: an algorithm that is told the truth
  *
+ * Constant cost where none is said.
  * Stack: 100 bytes at most where nothing else is said. In all headers: the deepest call on a
  * Cortex-M4F, gcc 12.2 -Os, embedded profile; tools/lab/MEASUREMENTS.md has others.
  */
@@ -93,10 +94,7 @@ enum rho_status {
     RHO_NUM_STATUS      /* number of outcomes, not an outcome */
 };
 
-/*
- * Name of an outcome for logs: "ok", "null", "size", ... A constant string; "unknown" for any other
- * value. Cost: constant. Stack: 0 bytes.
- */
+/* Name of an outcome for logs ("ok", "null", ...); "unknown" for any other value. No stack. */
 const char *rho_status_name(enum rho_status status);
 
 /* Limits of inputs. Plots beyond them get the fate INVALID; parameters beyond them are refused. */
@@ -154,10 +152,7 @@ struct rho_polar_plot {
     float snr_db;
 };
 
-/*
- * One look of one sensor: a whole revolution, or a sector of it. The plots belong to the caller and
- * are only read.
- */
+/* One look of one sensor, a revolution or a sector. The plots are the caller's, and only read. */
 struct rho_scan {
     int64_t time_us;
     int32_t sensor_id;
@@ -194,18 +189,13 @@ struct rho_frame {
     const struct rho_bearing_scan *scans; /* num_scans scans, one a sensor at most */
 };
 
-/*
- * Description of a sensor. A sensor without one has the tracker's defaults and covers every place.
- */
+/* A sensor. One without a description has the tracker's defaults and covers every place. */
 struct rho_sensor {
     int32_t sensor_id;
     float x_m, y_m, z_m;
     /* probability that a target in the coverage yields a plot, 0 < pd < 1 */
     float pd;
-    /*
-     * range limits: plots more than 4 standard deviations outside are INVALID; targets outside are
-     * neither seen nor missed
-     */
+    /* range limits: plots over 4 sigma outside are INVALID, targets neither seen nor missed */
     float range_min_m; /* 0: no lower limit */
     float range_max_m;
     /* azimuths of the coverage; equal: the whole circle */
@@ -260,15 +250,10 @@ enum rho_fate {
     RHO_NUM_FATES     /* number of fates, not a fate */
 };
 
-/*
- * Name of a fate in lower case ("claimed", ...); "unknown" for any other value. Constant cost, no
- * stack.
- */
+/* Name of a fate in lower case ("claimed", ...); "unknown" for any other value. No stack. */
 const char *rho_fate_name(enum rho_fate fate);
 
-/*
- * The larger of a plot's horizontal sigmas, where one number must do for its noise. Constant cost.
- */
+/* The larger of a plot's horizontal sigmas, where one number must do for its noise. */
 float rho_plot_sigma_m(const struct rho_plot *plot);
 
 /*
@@ -290,10 +275,7 @@ RHO_MUST_CHECK enum rho_status rho_measurement_from_polar(const struct rho_polar
                                                           const struct rho_sensor *sensor,
                                                           struct rho_plot *plot);
 
-/*
- * The sum of a counter and n, saturating at UINT32_MAX, as every counter of the library does.
- * Constant cost.
- */
+/* The sum of a counter and n; saturates at UINT32_MAX, as every counter of the library does. */
 static inline uint32_t rho_count(uint32_t counter, uint32_t n)
 {
     uint32_t sum = counter + n;
@@ -303,10 +285,7 @@ static inline uint32_t rho_count(uint32_t counter, uint32_t n)
 /* Number of bits that are set in a mask of scans. */
 unsigned rho_count_bits(uint32_t mask);
 
-/*
- * Seconds from from_us to to_us, any two times. Spans up to 2^24 us are rounded once; beyond, the
- * relative error is 1.2e-7.
- */
+/* Seconds from from_us to to_us, any times: rounded once up to 2^24 us, beyond within 1.2e-7. */
 float rho_seconds_between(int64_t from_us, int64_t to_us);
 
 /* Microseconds from then_us to now_us, any two times; 0 where then_us is not before now_us. */
@@ -315,10 +294,7 @@ uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us);
 /* True where v is finite and lo <= v <= hi; false for NaN. */
 int rho_is_within(float v, float lo, float hi);
 
-/*
- * True where v is neither infinite nor NaN. No stack. In code that is not called often,
- * rho_are_finite(&v, 1) takes fewer bytes.
- */
+/* Neither infinite nor NaN. No stack. Where rarely called, rho_are_finite(&v, 1) is smaller. */
 static inline int rho_is_finite(float v)
 {
     return v >= -FLT_MAX && v <= FLT_MAX;
@@ -327,9 +303,7 @@ static inline int rho_is_finite(float v)
 /* True where all `count` values are finite. */
 int rho_are_finite(const float *values, size_t count);
 
-/*
- * True where an object may hold this time: within RHO_LIMIT_TIME_US, or beyond by a plot's offset.
- */
+/* True where an object may hold a time: within RHO_LIMIT_TIME_US and a plot's offset. */
 int rho_is_stored_time(int64_t time_us);
 
 /* True where a coordinate is finite and within RHO_LIMIT_POSITION_M either way. */

@@ -73,9 +73,8 @@ struct rho_udpm_guard {
 };
 
 /*
- * 1 where datagrams may come from this address; other datagrams are counted in refused_source. 0,
- * without counting, where guard is NULL or num_sources is beyond RHO_UDPM_MAX_SOURCES. Cost:
- * num_sources.
+ * 1 where datagrams may come from this address; others are counted in refused_source. 0, without
+ * counting, where guard is NULL or num_sources > RHO_UDPM_MAX_SOURCES. Cost: num_sources.
  */
 int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4);
 

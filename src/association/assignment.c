@@ -110,10 +110,7 @@ static void find_path_end(struct rho_assignment *a, struct search *s, int row)
     }
 }
 
-/*
- * Walks back along the path from its end to the row that was searched for: each row takes the
- * column that was reached from it.
- */
+/* Walks back from the path's end to first_row: each row takes the column reached from it. */
 static void augment_path(struct rho_assignment *a, const struct search *s, int first_row)
 {
     int16_t column = s->end_column;

@@ -53,10 +53,7 @@ void rho_gate_box(const struct rho_gate *gate, float sigma_max_m, float offset_m
     }
 }
 
-/*
- * True where a plot is outside of the gate along one axis alone, at its own time; also for NaN.
- * Rejects most plots without a division.
- */
+/* True where a plot is outside of the gate along one axis; also for NaN. Saves divisions. */
 static int is_outside_on_axis(const struct rho_gate *gate, int axis, float place_m, float offset_s,
                               float variance_m2)
 {

@@ -15,10 +15,7 @@ static inline void extend_span(struct element_span *span, float value, float var
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-/*
- * Range of values and largest variance of one element of the state, over all hypotheses of a slot
- * and both models.
- */
+/* Range and largest variance of an element of the state, over a slot's hypotheses and models. */
 static struct element_span span_of_element(const struct rho_hypotheses *pool, uint16_t slot,
                                            int element)
 {
@@ -40,10 +37,7 @@ static float gate_half_width(const struct element_span *span)
     return RHO_IMM_GATE_SIGMAS * rho_sqrt(span->variance_max);
 }
 
-/*
- * Largest magnitude of three elements of the state, from `first` on, on any axis, with its
- * uncertainty.
- */
+/* Largest magnitude of three elements of the state, from `first` on, with its uncertainty. */
 static float largest_magnitude(const struct rho_hypotheses *pool, uint16_t slot, int first)
 {
     float most = 0.0f;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hypotheses: the pool of hypotheses, its slots, prediction, and the mean over a slot.
- * hypotheses_scan.c extends the hypotheses by the plots of a scan.
- */
+/* hypotheses: the pool of hypotheses, its slots, prediction, and the mean over a slot. */
 #include "rhotrack/detail/hypotheses.h"
 
 #include <string.h>

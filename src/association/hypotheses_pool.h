@@ -25,17 +25,11 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
 enum rho_status rho_hypotheses_predict_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
                                               int64_t from_us, int64_t to_us);
 
-/*
- * Filter of a hypothesis at a given time: its own, or a copy in the pool's scratch that was
- * predicted there; NULL where the prediction fails.
- */
+/* A hypothesis' filter, or its copy in scratch, at a time; NULL where the prediction fails. */
 const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
                                                const struct rho_hypothesis *at, int64_t time_us);
 
-/*
- * Subtracts the weight of the best hypothesis, the slot's first, from all weights, and updates all
- * shares. Returns the subtracted weight.
- */
+/* Subtracts the first hypothesis' weight, the best, from all, sets shares, and returns it. */
 float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot);
 
 /* Sum of the shares, e^weight, of a slot's hypotheses. */

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hypotheses_scan: scores a scan's plots with all hypotheses of a track, expands the hypotheses
- * into children, and prunes them. gate_box.c begins the scan.
- */
+/* hypotheses_scan: scores a scan's plots with a track's hypotheses, which it expands and prunes. */
 #include <float.h>
 #include <string.h>
 
@@ -20,10 +17,7 @@ static float log_clutter_density(const struct rho_hypotheses_clutter *clutter, u
            (measures & RHO_MEASURES_RANGE_RATE ? clutter->log_per_range_rate : 0.0f);
 }
 
-/*
- * A plot to be scored, with ln of pd over the clutter's density for hypotheses without (level) and
- * with (high) a height.
- */
+/* A plot, and ln of pd over the clutter's density without (level) and with (high) a height. */
 struct offered_plot {
     const struct rho_imm_plot *seen;
     int64_t time_us;
@@ -31,10 +25,7 @@ struct offered_plot {
     int16_t row;
 };
 
-/*
- * Inserts a plot into a hypothesis' list of its best plots, of equals behind the earlier ones.
- * Returns the hypothesis' weight with the plot.
- */
+/* Inserts a plot into a list of best plots, behind equals. Returns the weight with the plot. */
 static inline float list_candidate(struct rho_hypothesis *at, float gain_nat, float probability,
                                    int16_t row)
 {
@@ -269,10 +260,7 @@ static unsigned select_children(struct rho_hypotheses *pool, uint16_t slot,
     return rho_hypotheses_make_room(pool, slot, num);
 }
 
-/*
- * Loss of weight, nat, of an estimate faster than any target: half the squared excess in standard
- * deviations of the speed, by the likelier model.
- */
+/* Loss of weight, nat, for excess speed: half its square in sigmas, by the likelier model. */
 static float excess_speed_loss_nat(const struct rho_imm *imm, float speed_max_mps)
 {
     const float *state = imm->probability > 0.5f ? imm->state : imm->steady.state;
@@ -372,10 +360,7 @@ static void replace_parents(struct rho_hypotheses *pool, uint16_t slot,
     pool->num_of[slot] = (uint8_t)num;
 }
 
-/*
- * Sorts a slot's hypotheses by weight, makes the best one's weight 0 and removes those that are
- * much lighter. Returns the weight that the best one had.
- */
+/* Sorts a slot's hypotheses, subtracts the best weight, which it returns, and prunes the light. */
 static float prune_slot(struct rho_hypotheses *pool, uint16_t slot)
 {
     uint16_t *nodes = pool->node_of[slot];

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
- * changes each.
- */
+/* policy: constants set by neither physics nor a parameter; tools/gates/mutate.py changes each. */
 #ifndef RHOTRACK_ASSOCIATION_POLICY_H
 #define RHOTRACK_ASSOCIATION_POLICY_H
 

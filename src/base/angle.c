@@ -8,11 +8,6 @@
 /* Tolerance of comparisons: float32's rounding of an angle that was reduced to one turn. */
 #define SECTOR_ROUNDING_RAD 1.0e-6f
 
-static float magnitude(float v)
-{
-    return v < 0.0f ? -v : v;
-}
-
 /* Counter-clockwise angle from one direction to another, in [0, 2 pi). */
 static float ccw_arc_rad(float from_rad, float to_rad)
 {
@@ -35,10 +30,7 @@ float rho_angle_wrap(float angle_rad)
     return wrapped >= -RHO_PI && wrapped < RHO_PI ? wrapped : -RHO_PI;
 }
 
-/*
- * The angles are wrapped before they are subtracted: their difference may exceed the limit of
- * rho_angle_wrap, or lose its last digits.
- */
+/* Wrapped before they are subtracted: their difference may exceed a limit, or lose digits. */
 float rho_angle_difference(float a_rad, float b_rad)
 {
     return rho_angle_wrap(rho_angle_wrap(a_rad) - rho_angle_wrap(b_rad));
@@ -113,7 +105,7 @@ int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
 {
-    const float longer = magnitude(dx) > magnitude(dy) ? magnitude(dx) : magnitude(dy);
+    const float longer = rho_larger(rho_magnitude(dx), rho_magnitude(dy));
     const float ux = dx / longer;
     const float uy = dy / longer;
     const float rho_m = (y_m * ux - x_m * uy) / rho_sqrt(ux * ux + uy * uy);
@@ -136,8 +128,5 @@ int32_t rho_angle_clamped_theta_cell(float theta_rad, int32_t num_cells)
     if (!(num_cells > 0 && cell > 0.0f)) {
         return 0;
     }
-    if (cell >= (float)num_cells) {
-        return num_cells - 1;
-    }
-    return (int32_t)cell;
+    return cell >= (float)num_cells ? num_cells - 1 : (int32_t)cell;
 }

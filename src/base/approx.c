@@ -30,10 +30,7 @@ enum {
 #define LN2_HIGH 0.693359375f
 #define LN2_LOW (-2.12194440e-4f)
 
-/*
- * The processor's square root instruction. RHO_SOFTWARE_ROOT disables it, to test the code for
- * processors without one.
- */
+/* The processor's square root; RHO_SOFTWARE_ROOT disables it, to test the code without one. */
 #if defined __GNUC__ && !defined RHO_SOFTWARE_ROOT
 #if defined __SSE__
 /* operand order of both assembler dialects (-masm) */
@@ -178,10 +175,7 @@ float rho_log_one_plus(float zero_to_one)
 
 #if defined ROOT_INSTRUCTION
 
-/*
- * Square root by the processor's instruction: correctly rounded, so its bits are those of the
- * software version, in one instruction instead of forty.
- */
+/* The processor's square root: correctly rounded, so its bits are those of the software's. */
 static float square_root(float v)
 {
     float root;

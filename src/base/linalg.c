@@ -86,10 +86,7 @@ float rho_linalg_log_determinant(int n, const float *l)
     return 2.0f * sum;
 }
 
-/*
- * NIS by S = L D L^T with a unit L: pivots instead of a determinant, which cancels where the errors
- * are correlated.
- */
+/* NIS by S = L D L^T: pivots, as a determinant cancels where errors are correlated. */
 enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
                                 float *log_det)
 {
@@ -133,10 +130,7 @@ enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *dista
     return RHO_OK;
 }
 
-/*
- * A variance after an update. The rounding allowance is for the covariances of its element: a
- * variance without any needs none.
- */
+/* A variance after an update. Without covariances of its element it needs no allowance. */
 static inline float reduced_variance(float variance, float gain, float covariance)
 {
     /* 0 or more; 0 where measurement and element are not coupled */
@@ -192,10 +186,7 @@ struct scalar_measurement {
     float innovation, inverse, kept;
 };
 
-/*
- * Updates position and velocity of one axis that is coupled with no other axis: the bits of
- * update_all_axes up to the sign of a zero, in a third of the time.
- */
+/* For an axis coupled with no other: the same bits but a zero's sign, in a third of the time. */
 static int update_axis_alone(float x[6], float p[21], int element,
                              const struct scalar_measurement *seen)
 {
@@ -254,10 +245,7 @@ enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element,
         return RHO_ERROR_VALUE;
     }
     const float predicted = p[RHO_AT(element, element)], sum = predicted + variance;
-    /*
-     * The measured row is scaled by R / S instead of being reduced by a difference: no digit
-     * cancels. R / S is never above 1.
-     */
+    /* the measured row is scaled by R / S <= 1, not reduced by a difference: no digit cancels */
     const struct scalar_measurement seen = {innovation, 1.0f / sum, variance / sum};
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;

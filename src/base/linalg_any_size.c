@@ -32,10 +32,7 @@ static int correct_state(int n, float *x, const float *spread, float innovation,
     return 1;
 }
 
-/*
- * p -= spread spread^T / S. Elements that are not coupled to the measurement, such as those of an
- * axis without heights, stay unchanged.
- */
+/* p -= spread spread^T / S. Elements that are not coupled to the measurement stay unchanged. */
 static void reduce_covariance(int n, float *p, const float *spread, float inverse)
 {
     for (int i = 0; i < n; p += ++i) {
@@ -82,10 +79,7 @@ enum rho_status rho_linalg_update_element(int n, float *x, float *p, int element
     return RHO_OK;
 }
 
-/*
- * spread := p row; returns row . p row. Each stored element of p is read once, for its row and for
- * its column.
- */
+/* spread := p row; returns row . p row. Each element of p is read once, for row and column. */
 static float project_covariance(int n, const float *p, int num, const float *row, float *spread)
 {
     float variance = 0.0f;

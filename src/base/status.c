@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/types.h"
 
-/*
- * Names as characters instead of pointers: without relocations the table is read-only in every
- * build.
- */
+/* Names as characters, no pointers: without relocations the table is read-only everywhere. */
 static const char status_names[RHO_NUM_STATUS][9] = {
     [RHO_OK] = "ok",
     [RHO_ERROR_NULL] = "null",

@@ -38,10 +38,7 @@ unsigned rho_count_bits(uint32_t mask)
     return (unsigned)((mask * 0x01010101u) >> 24);
 }
 
-/*
- * The difference of two int64_t needs 64 bits and a sign: the sign is taken first, and the
- * magnitude is unsigned.
- */
+/* The difference needs 64 bits and a sign, which is taken first; the magnitude is unsigned. */
 float rho_seconds_between(int64_t from_us, int64_t to_us)
 {
     const uint64_t from = (uint64_t)from_us;

@@ -99,10 +99,7 @@ float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned 
     return (most - (float)n) / (most - 1.0f) + ANEW_SHARE / (most * most);
 }
 
-/*
- * Variance of the mean square of n plots' places, times n / 2, relative to v^2; v: the body's
- * variance, own: the plots' noise.
- */
+/* Variance of n plots' mean square times n / 2, over v^2; v: the body's, own: the noise. */
 static float relative_square_variance(float v_m2, float own_m2)
 {
     const float own = own_m2 / v_m2;
@@ -110,9 +107,8 @@ static float relative_square_variance(float v_m2, float own_m2)
 }
 
 /*
- * Updates the extent along one axis by the mean square of n plots' places less their noise. The
- * weight of the plots is computed for a body of usual variance, so that it does not depend on the
- * measured one.
+ * Updates one axis' extent by the mean square of n plots' places less their noise. The plots'
+ * weight is that of a body of usual variance, so that it does not depend on the measured one.
  */
 static void update_side(struct rho_body_side *side, float usual_m2, float seen_m2, float own_m2,
                         float n)
@@ -143,9 +139,8 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
     update_side(&body->along, floored_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
     body->along_m2 = rho_larger(body->along.mean_m2, PLACE_LEAST_M2);
     /*
-     * An error of the heading turns all plots of a look about the reference point: their apparent
-     * slope is the sum of the scatterers' own slope (learned, as it lasts) and of this error, whose
-     * expected share is subtracted.
+     * An error of the heading turns all plots of a look: their apparent slope is the sum of the
+     * scatterers' own (learned, as it lasts) and of this error, whose expected share is subtracted.
      */
     const float usual_m2 = floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
     const float noise_m2 = look->noise_across_m2 / n;
@@ -199,17 +194,12 @@ void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape)
     *shape = (struct rho_body){
         .heading_rad = rho_atan2(body->sin_heading, body->cos_heading),
         .sigma_heading_rad = body->heading_sigma_rad,
-        /*
-         * the mean of N scatterers, one in each part of the body, has a sigma of L / (N^1.5 root
-         * 12)
-         */
+        /* the mean of N scatterers, one in each part, has a sigma of L / (N^1.5 root 12) */
         .sigma_along_m = rho_sqrt(body->along_m2 / (most * most * most)),
         .sigma_across_m = rho_sqrt(body->across_m2 / (most * most * most)),
         .plots = body->plots,
     };
-    /*
-     * a heading error e adds (s + e)^2 - s^2 to the squared slope s; e is at most as uncertain as s
-     */
+    /* a heading error e, at most as uncertain as the slope s, adds (s + e)^2 - s^2 to its square */
     const float turned = rho_smaller(mean_square_heading_error(body), 1.0f / body->slope_weight);
     const float off = rho_sqrt(turned * (turned + 4.0f * body->slope * body->slope));
     shape->length_m = side_length_m(body, &body->along, body->along_m2, turned * body->across_m2,

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * imm: the two motion models, their transition over an interval, mixing and prediction.
- * imm_likelihood.c scores plots, imm_update.c updates with them.
- */
+/* imm: the two motion models, their transition over an interval, mixing and prediction. */
 #include "rhotrack/detail/imm.h"
 
 #include <float.h>
@@ -47,10 +44,7 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model)
            rho_is_within(model->speed_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS);
 }
 
-/*
- * Weights and nodes of Gauss-Legendre quadrature with four points on 0 .. 1: exact to the seventh
- * power.
- */
+/* Weights and nodes of four-point Gauss-Legendre quadrature on 0 .. 1: exact to power 7. */
 static const float gauss_weight[4] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
 static const float gauss_node[4] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f};
 
@@ -207,10 +201,7 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
     imm->calm = model->calm_s / (model->calm_s + RHO_IMM_CALM_S);
 }
 
-/*
- * Weights of one model's mixed moments: of the model itself, of the other one, and of the product
- * of their differences.
- */
+/* Weights of one model's mixed moments: itself, the other, and the product of differences. */
 struct mixing {
     float own, other, spread;
 };
@@ -220,10 +211,7 @@ struct mixing_weights {
     struct mixing steady, manoeuvre;
 };
 
-/*
- * Predicts the probabilities of calm, agile and manoeuvring by the Markov chain, and returns the
- * weights for mixing the models.
- */
+/* Predicts the Markov chain's probabilities, and returns the weights for mixing the models. */
 static struct mixing_weights update_markov_chain(struct rho_imm *imm,
                                                  const struct rho_imm_step *step)
 {
@@ -305,10 +293,7 @@ static inline float predicted_variance(float variance)
     return rho_larger(RHO_VARIANCE_MIN, variance * (1.0f + RHO_ROUNDING_UNITS(32)));
 }
 
-/*
- * Predicts the manoeuvring model's covariances of two axes, F C F^T: three columns, then three
- * rows.
- */
+/* Predicts the manoeuvring model's covariances of two axes, F C F^T: columns, then rows. */
 static inline void propagate_cross_covariance(struct axis_pair *at, const struct rho_imm_step *step)
 {
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,

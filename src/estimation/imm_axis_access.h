@@ -12,10 +12,7 @@
 
 #include "rhotrack/detail/imm.h"
 
-/*
- * Index of the covariance of derivative d (0 position, 1 velocity, 2 acceleration) of an axis with
- * derivative e of the same or another axis.
- */
+/* Index of the covariance of derivative d (0, 1, 2) of an axis with derivative e of any axis. */
 #define COVARIANCE_AT(axis, d, other, e) RHO_AT(RHO_AXES *(d) + (axis), RHO_AXES * (e) + (other))
 
 /* Position and velocity of one axis, of either model, with their covariance. */
@@ -24,29 +21,20 @@ struct axis {
     float pp, vp, vv;
 };
 
-/*
- * Acceleration of one axis of the manoeuvring model, with its covariances; in the steady model it
- * is 0 with variance 0.
- */
+/* Acceleration of one axis, with its covariances; in the steady model 0 with variance 0. */
 struct accel {
     float a;
     float ap, av, aa;
 };
 
-/*
- * Index of an axis' covariance with its own position, in its rows of position, velocity and
- * acceleration.
- */
+/* Index of an axis' covariance with its position, in rows of position, velocity, acceleration. */
 static const uint8_t axis_rows[RHO_AXES][3] = {
     {COVARIANCE_AT(0, 0, 0, 0), COVARIANCE_AT(0, 1, 0, 0), COVARIANCE_AT(0, 2, 0, 0)},
     {COVARIANCE_AT(1, 0, 1, 0), COVARIANCE_AT(1, 1, 1, 0), COVARIANCE_AT(1, 2, 1, 0)},
     {COVARIANCE_AT(2, 0, 2, 0), COVARIANCE_AT(2, 1, 2, 0), COVARIANCE_AT(2, 2, 2, 0)},
 };
 
-/*
- * Loads position and velocity of one axis. In a row of the covariance an axis' elements are
- * RHO_AXES apart.
- */
+/* Loads position and velocity of one axis; in a row an axis' elements are RHO_AXES apart. */
 static inline struct axis load_axis(const float *state, const float *covariance, int axis)
 {
     const float *by_v = &covariance[axis_rows[axis][1]];

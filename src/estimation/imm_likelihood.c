@@ -7,18 +7,12 @@
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 
-/*
- * If one model is within the gate, the other one is used up to this NIS: its density may be higher,
- * as its covariance is smaller.
- */
+/* Largest NIS of a model beside one in the gate: its smaller covariance may mean more density. */
 #define NIS_COUNTS_MAX (RHO_IMM_GATE * 2.0f)
 /* NIS of a model that is not used: larger than that of any model that is. */
 #define NIS_BEYOND_ALL (NIS_COUNTS_MAX * 2.0f)
 
-/*
- * One model's estimate, and how a plot scores under it. Positions and velocities have the same
- * indices in both models.
- */
+/* A model's estimate and a plot's score; places and velocities have the same indices in both. */
 struct model_view {
     const float *state, *covariance;
     const float *projected; /* covariances of the predicted range rate with the state */
@@ -175,10 +169,7 @@ static inline float range_rate_nis(const struct model_view *view, const struct r
     return off * off / variance;
 }
 
-/*
- * NIS of a position with height and, if measured, a range rate, on coupled axes: S = L D L^T
- * written out.
- */
+/* NIS of a position with height, and a range rate if measured: S = L D L^T written out. */
 static void set_coupled_score(struct model_view *view, const struct rho_imm_plot *seen,
                               int has_rate)
 {
@@ -440,10 +431,7 @@ static inline float half_nis(const float centre_m[3], const float half_inverse[3
     return dx * dx * half_inverse[0] + dy * dy * half_inverse[1] + dz * dz * half_inverse[2];
 }
 
-/*
- * ln of a model's term of the mixture density; half: half of the NIS. Next to nothing for a model
- * that is not used.
- */
+/* ln of a model's term of the mixture, next to nothing if unused; half: half of the NIS. */
 static inline float log_density_of_model(float log_factor, float half)
 {
     return log_factor - (half <= 0.5f * NIS_COUNTS_MAX ? half : 1e6f);

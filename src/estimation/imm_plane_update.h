@@ -21,16 +21,12 @@ struct plane_rate {
     float nonlinearity; /* variance that the linearisation leaves out (kalman.c) */
 };
 
-/*
- * Predicts the range rate of an estimate into *rate. Returns 0 where the position is the sensor's,
- * and no range rate is defined.
- */
+/* Predicts an estimate's range rate. Returns 0 where its position is the sensor's: it has none. */
 int rho_imm_plane_rate(const float *state, const float *covariance, const struct rho_sensor *sensor,
                        struct plane_rate *rate);
 
 /*
- * spread := covariances of the states with the position along the direction (x, y), or with a range
- * rate. Returns the variance of the position or the range rate.
+ * spread := covariances with the position along (x, y), or with a range rate; returns its variance.
  */
 float rho_imm_plane_project_place(int num_states, const float *restrict p, float x, float y,
                                   float *restrict spread);

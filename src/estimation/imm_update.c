@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * imm_update: updates both models with a plot, by scalar updates: axis by axis while the axes are
- * independent, else by rows along the axes of the plot's noise.
- */
+/* imm_update: updates both models by scalars: of each axis, or rows along the noise's axes. */
 #include <float.h>
 
 #include "imm_plane_update.h"
@@ -208,10 +205,7 @@ static enum rho_status update_plane_rate(int num_states, float *state, float *co
                                 variance);
 }
 
-/*
- * Updates both models without a height. Of a plot with a height, the range along the ground is
- * used.
- */
+/* Updates both models without a height, by a plot's range along the ground. */
 static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm_plot *seen)
 {
     const struct rho_measurement *at = &seen->position;

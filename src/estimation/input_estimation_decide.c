@@ -76,10 +76,7 @@ static void move_input_effect_into_filter(struct rho_input *input, int axis)
     add_input_effect(&input->bare, m, axis, rest_mps2, variance);
 }
 
-/*
- * Tests correlated inputs, the weakest first, and removes those below the limit. Returns the axes
- * with inputs.
- */
+/* Removes correlated inputs below the limit, the weakest first. Returns the axes with inputs. */
 static uint32_t end_correlated_inputs(struct rho_input *input, float nis_limit,
                                       float initial_variance)
 {

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * input_estimation_plot: updates filter and inputs with a plot, split into scalar measurements:
- * position along its noise axes, range rate, bearing.
- */
+/* input_estimation_plot: updates filter and inputs with a plot, split into scalars. */
 #include <stddef.h>
 
 #include "input_sensitivity.h"

@@ -10,10 +10,7 @@
 
 static const struct rho_input no_input = {.present = 0};
 
-/*
- * Quantile of the normal distribution: M. Abramowitz, I. Stegun, Handbook of Mathematical
- * Functions, 26.2.23: absolute error <= 4.5e-4.
- */
+/* Quantile of the normal distribution: Abramowitz and Stegun, 26.2.23: error <= 4.5e-4. */
 float rho_input_threshold_sigmas(float confidence)
 {
     if (!(confidence >= 0.0f && confidence < 1.0f)) {
@@ -159,10 +156,7 @@ static float predict_sensitivities(struct rho_input *input, const struct rho_inp
     return size2;
 }
 
-/*
- * Forgetting: V / gamma on axes with an input, at most V(0); covariances grow by the square roots
- * of the variances' factors.
- */
+/* Forgetting: V / gamma where an input is, V(0) at most; covariances by the factors' roots. */
 static void grow_present_input_variances(struct rho_input *input,
                                          const struct rho_input_config *config)
 {
@@ -197,10 +191,7 @@ static enum rho_status predict_inputs(struct rho_input *input,
     if (!(size2 <= SQUARE_MAX)) {
         return RHO_ERROR_VALUE;
     }
-    /*
-     * Inputs add at most size2 trace V to a variance: where that is a thousandth of the limit, the
-     * variances of the corrected estimate need no check.
-     */
+    /* inputs add at most size2 trace V to a variance: below a thousandth of the limit no check */
     if (!input->present ||
         size2 * (v[RHO_XX] + v[RHO_YY] + v[RHO_ZZ]) <= 1.0e-3f * RHO_VARIANCE_MAX) {
         return RHO_OK;

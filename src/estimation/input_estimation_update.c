@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * input_estimation_update: updates the filter without input with a scalar measurement, and the
- * inputs with the part of the innovation that they explain.
- */
+/* input_estimation_update: updates the filter without input, and the inputs, with a scalar. */
 #include <float.h>
 #include <stddef.h>
 
@@ -27,10 +24,7 @@ struct scalar_measurement {
     float by_input[NUM_AXES];
 };
 
-/*
- * Updates the inputs u and their covariance V, the paper's (11) and (12). False where they get too
- * large, or NaN.
- */
+/* Updates u and its covariance V, the paper's (11), (12). False where too large, or NaN. */
 static int update_inputs(struct rho_input *input, const struct scalar_measurement *scalar)
 {
     float *v = input->variance, *u = input->input_mps2, vs[NUM_AXES];

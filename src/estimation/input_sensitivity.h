@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_sensitivity: the sensitivity of the state to the input of each axis, one column
- * an axis, and the effect of an input on an estimate. Private to
- * src/estimation/input_estimation_*.c.
+ * input_sensitivity: the sensitivity of the state to the input of each axis, one column an axis,
+ * and the effect of an input on an estimate. Private to src/estimation/input_estimation_*.c.
  */
 #ifndef RHOTRACK_INPUT_SENSITIVITY_H
 #define RHOTRACK_INPUT_SENSITIVITY_H
@@ -49,10 +48,7 @@ static inline int is_column_uncoupled(const float sensitivity[NUM_STATES], int a
            0;
 }
 
-/*
- * Adds the effect of an input u with variance v on an axis: x := x + m u, p := p + v m m^T, m the
- * column of sensitivities of this axis.
- */
+/* Adds an input u with variance v: x + m u, p + v m m^T, m the axis' column of sensitivities. */
 static inline void add_input_effect(struct rho_kalman *kalman, const float sensitivity[NUM_STATES],
                                     int axis, float input_mps2, float variance)
 {

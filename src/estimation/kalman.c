@@ -4,10 +4,7 @@
 #include <float.h>
 #include <stddef.h>
 
-/*
- * Indices in the packed triangle: of the variance of element i, and of cov(velocity of axis a,
- * position of axis b).
- */
+/* Indices in the triangle: variance of element i, cov(velocity of axis a, position of axis b). */
 #define DIAGONAL(i) RHO_AT(i, i)
 #define VELOCITY_POSITION(a, b) (RHO_TRIANGLE(RHO_AXES + (a)) + (b))
 
@@ -21,10 +18,7 @@ static int is_valid_variance(float v)
     return v >= RHO_VARIANCE_MIN && v <= RHO_VARIANCE_MAX;
 }
 
-/*
- * Predicts one axis: F x and F P F^T + Q, F = [1 dt; 0 1]. noise: density x dt. False where the
- * result is beyond the limits.
- */
+/* Predicts an axis: F x, F P F^T + Q, F = [1 dt; 0 1]; noise: density x dt. False beyond limits. */
 static inline int predict_axis(struct axis_prediction *next, const struct rho_kalman *kalman,
                                int axis, float dt_s, float noise)
 {
@@ -250,8 +244,7 @@ static enum rho_status update_axes(struct rho_kalman *kalman, int num_axes, cons
 
 /*
  * Updates with a position in the frame of the plot's noise. The axes are all open, or all closed.
- * The estimate is taken relative to the plot: rotating a position far from the origin would cost
- * digits.
+ * The estimate is taken relative to the plot: rotating a far position would cost digits.
  */
 static enum rho_status update_in_noise_frame(struct rho_kalman *kalman, int num_axes,
                                              const struct rho_measurement *seen,

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
- * changes each.
- */
+/* policy: constants set by neither physics nor a parameter; tools/gates/mutate.py changes each. */
 #ifndef RHOTRACK_ESTIMATION_POLICY_H
 #define RHOTRACK_ESTIMATION_POLICY_H
 
@@ -141,10 +138,7 @@
  * division by next to nothing. Twice: looks of one plot with a vague heading no longer count.
  */
 #define LEAST_PLOTS 0.1f
-/*
- * Least variance of a place on a body, m^2: a length of 0.1 m. Half or twice: the least length that
- * is reported.
- */
+/* Least variance of a place, m^2: a length of 0.1 m. Half or twice: the least reported length. */
 #define PLACE_LEAST_M2 1e-3f
 
 #endif

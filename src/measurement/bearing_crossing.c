@@ -5,19 +5,14 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
-/* True where both coordinates are finite and within RHO_LIMIT_POSITION_M. */
-static int is_valid_place(float x_m, float y_m)
-{
-    return rho_is_coordinate(x_m) && rho_is_coordinate(y_m);
-}
-
 enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_m, float y_a_m,
                                       float x_b_m, float y_b_m)
 {
     if (!base) {
         return RHO_ERROR_NULL;
     }
-    if (!is_valid_place(x_a_m, y_a_m) || !is_valid_place(x_b_m, y_b_m)) {
+    if (!rho_is_coordinate(x_a_m) || !rho_is_coordinate(y_a_m) || !rho_is_coordinate(x_b_m) ||
+        !rho_is_coordinate(y_b_m)) {
         return RHO_ERROR_VALUE;
     }
     float dx_m = x_b_m - x_a_m, dy_m = y_b_m - y_a_m;
@@ -34,15 +29,7 @@ enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_
     return RHO_OK;
 }
 
-static float without_sign(float v)
-{
-    return v < 0.0f ? -v : v;
-}
-
-/*
- * Angles of two bearings to the base. delta is the difference of the bearings themselves, which is
- * exact where it is small.
- */
+/* Angles of two bearings to the base; delta, of the bearings themselves, is exact where small. */
 struct base_angles {
     float a_rad, b_rad; /* |beta_a| and |beta_b| */
     float delta_rad;
@@ -55,20 +42,17 @@ static struct base_angles crossing_angles(const struct rho_crossing_base *base, 
     float a_rad = rho_angle_difference(bearing_a_rad, base->direction_rad);
     float b_rad = rho_angle_difference(bearing_b_rad, base->direction_rad);
     float turn_rad = rho_angle_difference(bearing_b_rad, bearing_a_rad);
-    return (struct base_angles){.a_rad = without_sign(a_rad),
-                                .b_rad = without_sign(b_rad),
+    return (struct base_angles){.a_rad = rho_magnitude(a_rad),
+                                .b_rad = rho_magnitude(b_rad),
                                 .delta_rad = a_rad + b_rad < 0.0f ? -turn_rad : turn_rad,
                                 .are_on_one_side = !(a_rad * b_rad < 0.0f)};
 }
 
-/*
- * B sin(beta), as the distance of one sensor from the other one's line of sight: the rounding of
- * the base's direction does not enter.
- */
+/* B sin(beta): a sensor's distance from the other's ray, without the rounded base direction. */
 static float ray_distance_m(const struct rho_crossing_base *base, float bearing_rad)
 {
     float dx_m = base->x_b_m - base->x_a_m, dy_m = base->y_b_m - base->y_a_m;
-    return without_sign(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
+    return rho_magnitude(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
 }
 
 float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing_a_rad,
@@ -98,10 +82,7 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
     crossing->delta_rad = angles.delta_rad;
     crossing->range_a_m = over_a_m / sine;
     crossing->range_b_m = over_b_m / sine;
-    /*
-     * from the nearer sensor: the rounding of sin(delta) is a relative error of the range, and
-     * moves the place less
-     */
+    /* from the nearer sensor: sin(delta)'s rounding is a share of the range, and moves it less */
     const int from_a = crossing->range_a_m <= crossing->range_b_m;
     const float bearing_rad = from_a ? bearing_a_rad : bearing_b_rad;
     const float range_m = from_a ? crossing->range_a_m : crossing->range_b_m;

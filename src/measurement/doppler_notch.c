@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * doppler_notch: the probability that an estimate's range rate is in a radar's Doppler notch, and
- * the estimate after a look without a plot.
- */
+/* doppler_notch: an estimate's probability in the notch, and its update by a miss. */
 #include "rhotrack/detail/doppler_notch.h"
 
 #include "policy.h"
@@ -38,10 +35,7 @@ static float normal_cdf(float sigmas, float density)
     return sigmas < 0.0f ? beyond : 1.0f - beyond;
 }
 
-/*
- * Integrals of 1, x and x^2 over the blind zones, for a normal x: the range rate's deviation from
- * its mean in sigmas.
- */
+/* Integrals of 1, x, x^2 over the blind zones, for a normal x: the range rate's sigmas off. */
 struct blind_moments_sum {
     float share, first, second;
 };
@@ -111,10 +105,7 @@ float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *
                : 0.0f;
 }
 
-/*
- * Gives a linear function of the state another mean (moved by mean_shift) and variance; the rest of
- * the estimate follows by its correlation.
- */
+/* Gives a linear function of the state another mean and variance; the rest follows. */
 static void impose_component_moments(const struct component *view, float mean_shift,
                                      float new_variance, int num_states, float *state,
                                      float *covariance)

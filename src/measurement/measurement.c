@@ -76,10 +76,7 @@ static float root_sum_squares(float a, float b)
 /* Limits a sigma that was converted from an angle to metres: near the sensor it goes to 0. */
 static float clamp_sigma_m(float sigma_m)
 {
-    if (!(sigma_m > RHO_LIMIT_SIGMA_MIN)) {
-        return RHO_LIMIT_SIGMA_MIN;
-    }
-    return sigma_m < RHO_LIMIT_SIGMA_MAX ? sigma_m : RHO_LIMIT_SIGMA_MAX;
+    return rho_smaller(rho_larger(sigma_m, RHO_LIMIT_SIGMA_MIN), RHO_LIMIT_SIGMA_MAX);
 }
 
 enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, uint32_t measures,
@@ -109,10 +106,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     if (!(range_m > 0.0f && range_m <= RHO_LIMIT_POSITION_M) || !is_valid_offset(offset_us)) {
         return RHO_ERROR_VALUE;
     }
-    /*
-     * gains e^(sigma^2 / 2) against the bias of the conversion, to the second order: exact to
-     * float32 for sigmas up to 0.1 rad, to 3e-4 at 0.5 rad
-     */
+    /* e^(sigma^2 / 2) against the conversion's bias: exact up to 0.1 rad, to 3e-4 at 0.5 rad */
     const float variance_azimuth = polar->sigma_azimuth_rad * polar->sigma_azimuth_rad;
     const float variance_elevation = sigma_elevation_rad * sigma_elevation_rad;
     const float half_azimuth = 0.5f * variance_azimuth, half_elevation = 0.5f * variance_elevation;
@@ -238,9 +232,7 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
         covariance[1] = covariance[3] = covariance[4] = 0.0f;
         return;
     }
-    /*
-     * level: variance of the range along the ground; slant: covariance of that range and the height
-     */
+    /* level: variance of the ground range; slant: covariance of that range and the height */
     float level = ce * ce * variance[0] + se * se * variance[2];
     float slant = ce * se * (variance[0] - variance[2]);
     /* allowance for rounding: very thin ellipses would not be positive definite */
@@ -301,10 +293,7 @@ int rho_measurement_can_unfold(const struct rho_sensor *sensor, float variance)
     return CLEAR_SIGMAS * CLEAR_SIGMAS * variance <= half_mps * half_mps;
 }
 
-/*
- * Cholesky factor of a packed lower triangle, in place, with less stack than rho_linalg_cholesky.
- * Returns 0 where the matrix is not positive definite.
- */
+/* In place, with less stack than rho_linalg_cholesky. Returns 0 where not positive definite. */
 static int cholesky_in_place(int num, float *a)
 {
     for (int i = 0; i < num; i++) {

@@ -64,10 +64,7 @@ int rho_angle_is_valid_sector(float from_rad, float to_rad);
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy);
 
-/*
- * Index of the theta cell, 0 .. num_cells - 1, for num_cells equal cells over [0, pi). theta
- * outside: the nearest cell; NaN, or num_cells < 1: 0.
- */
+/* Index of one of num_cells equal cells over [0, pi), the nearest; 0 for NaN or num_cells < 1. */
 int32_t rho_angle_clamped_theta_cell(float theta_rad, int32_t num_cells);
 
 #ifdef __cplusplus

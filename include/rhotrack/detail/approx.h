@@ -26,10 +26,7 @@ extern "C" {
 /* Largest angle of rho_sin, rho_cos and rho_angle_wrap, either way: 16 turns. */
 #define RHO_ANGLE_MAX_RAD 100.0f
 
-/*
- * Reads a float's bits, and makes a float of bits. By a union: with -ffreestanding a memcpy of four
- * bytes would be a call. No stack.
- */
+/* A float's bits, and back. By a union: a freestanding memcpy is a call. No stack. */
 union rho_binary32 {
     float v;
     uint32_t bits;
@@ -76,9 +73,13 @@ static inline float rho_smaller(float a, float b)
     return a < b ? a : b;
 }
 
-/*
- * Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 1e-7.
- */
+/* A number without its sign; -0 and NaN stay. No stack. */
+static inline float rho_magnitude(float v)
+{
+    return v < 0.0f ? -v : v;
+}
+
+/* Sine and cosine of an angle, |angle_rad| <= 100, NaN beyond. Absolute error <= 1e-7. */
 float rho_sin(float angle_rad);
 float rho_cos(float angle_rad);
 
@@ -97,10 +98,7 @@ float rho_exp(float v);
  */
 float rho_log(float v);
 
-/*
- * ln(1 + zero_to_one) of a number 0 .. 1: absolute error <= 2e-7. Other values give no sensible
- * result. A third of rho_log's cost.
- */
+/* ln(1 + zero_to_one), of 0 .. 1 alone: absolute error <= 2e-7. A third of rho_log's cost. */
 float rho_log_one_plus(float zero_to_one);
 
 /*
@@ -110,9 +108,8 @@ float rho_log_one_plus(float zero_to_one);
 float rho_sqrt(float v);
 
 /*
- * 1 / sqrt(v) of a normal v, FLT_MIN .. FLT_MAX: relative error <= 3e-7. Other values give no
- * sensible result. Some 20 instructions: for probability densities, which do not need rho_sqrt's
- * last digits.
+ * 1 / sqrt(v) of FLT_MIN .. FLT_MAX alone: relative error <= 3e-7. Some 20 instructions: for
+ * probability densities, which do not need rho_sqrt's last digits.
  */
 float rho_inverse_sqrt(float v);
 

@@ -76,10 +76,7 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
                                          float bearing_b_rad, float range_max_m,
                                          struct rho_crossing *crossing);
 
-/*
- * The angle delta = |beta_b| - |beta_a| between two bearings, without their crossing; -pi where the
- * bearings point to different sides of the base. Constant cost.
- */
+/* delta alone; -pi where the bearings point to different sides of the base. Constant cost. */
 float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing_a_rad,
                              float bearing_b_rad);
 

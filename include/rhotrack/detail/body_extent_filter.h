@@ -17,7 +17,7 @@
  * Scatterers stay on the body: N of them, each anywhere in its part, determine L with a sigma of
  * L / N^1.5 and the centre with L / (N^1.5 root 12), however long they are seen.
  *
- * Stack: 104 bytes at most.
+ * Constant cost. Stack: 104 bytes at most.
  */
 #ifndef RHOTRACK_BODY_EXTENT_FILTER_H
 #define RHOTRACK_BODY_EXTENT_FILTER_H
@@ -33,18 +33,15 @@ extern "C" {
 /* Starts a body whose extent is unknown; prior_m2: variance of a place on it, on each axis. */
 void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float prior_m2);
 
-/*
- * Sets the heading by a velocity (x, y) with its covariance xx, yx, yy, where the speed is three
- * times its sigma across the velocity. Constant cost.
- */
+/* Sets the heading by a velocity and its covariance xx, yx, yy, if over three of its sigmas. */
 void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float velocity_mps[2],
                                     const float covariance[3]);
 
-/* Rotates a covariance of x and y into the body's axes: along, cross, across. Constant cost. */
+/* Rotates a covariance of x and y into the body's axes: along, cross term, across. */
 void rho_body_rotate_covariance(const struct rho_body_filter *body, const float xx_yx_yy[3],
                                 float axes[3]);
 
-/* Bound of the variance along the body, for gates: with a share of the prior that falls. */
+/* Upper bound of the variance along the body, for gates: the prior's share falls with plots. */
 float rho_body_along_bound_m2(const struct rho_body_filter *body);
 
 /* Covariance of a random place on the body, in x and y: xx, yx, yy. Constant cost. */
@@ -61,12 +58,13 @@ struct rho_body_look {
 };
 
 /*
- * Share of the variance of a mean of n random places that a mean of n plots has: it falls with n
- * over the most plots of any look, as scatterers stay the same. Constant cost.
+ * The mean of n plots has this share of the variance that the mean of n random places on the body
+ * would have: it falls with n as a share of the most plots that a look ever had, as scatterers stay
+ * the same.
  */
 float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned n);
 
-/* Updates the extent by a look's plots, after the reference point was updated. Constant cost. */
+/* Updates the extent by a look's plots, after the reference point was updated with them. */
 void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look *look);
 
 /* Fills *shape with length, width, heading and their sigmas. Constant cost. */

@@ -27,7 +27,7 @@
 extern "C" {
 #endif
 
-/* Speed up to which a target may stand, over the notch's half width and over the speed's sigma. */
+/* Most speed of a standing target, in half widths of the notch and in the speed's sigmas. */
 #define RHO_NOTCH_STAND_WIDTHS 2.0f
 
 /* A look that yields no plot of a target. */

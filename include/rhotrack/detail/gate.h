@@ -53,25 +53,18 @@ RHO_MUST_CHECK enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough,
                                                    const float newest_mps[3]);
 
 /*
- * Hough residual of a plot: how far its velocity would change rho at theta*, summed over the
- * planes, m/s; the paper's (29), (30). NaN where the velocity is. Cost: about 45 instructions.
- * Stack: 8 bytes.
+ * Hough residual of a plot: how far its velocity would change rho at theta*, summed over planes,
+ * m/s; the paper's (29), (30). NaN where the velocity is. Cost: 45 instructions. Stack: 8 bytes.
  */
 float rho_gate_hough_distance_mps(const struct rho_gate_hough *hough, const float velocity_mps[3]);
 
-/*
- * The range rate that a track's prediction expects, its variance, and its covariances with the
- * position.
- */
+/* The predicted range rate, its variance, and its covariances with the position. */
 struct rho_gate_rate {
     int is_known; /* 0: the track is at the sensor's position, and has no range rate */
     float rate_mps, variance, covariance[3];
 };
 
-/*
- * A track's prediction at a scan's time, as its gate uses it. The sensor is referred to, not
- * copied.
- */
+/* A track's prediction at a scan's time. The sensor is referred to, not copied. */
 struct rho_gate {
     struct rho_kalman predicted;
     /* density of white acceleration, m^2/s^3, for predictions to a plot's own time */
@@ -90,9 +83,8 @@ struct rho_gate_result {
 };
 
 /*
- * Opens a gate: copies a track's prediction at a scan's time, and predicts the range rate if the
- * scan measures it. Cost: the copy, and 300 instructions where range rates are measured.
- * Stack: 150 bytes.
+ * Opens a gate: copies a track's prediction at a scan's time, and predicts its range rate if the
+ * scan measures it. Cost: the copy, and 300 instructions for range rates. Stack: 150 bytes.
  */
 void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, float noise_density,
                    const struct rho_sensor *sensor, uint32_t measures);

@@ -94,10 +94,7 @@ struct rho_hypotheses {
     /* children of one slot's hypotheses in a scan, the best first */
     struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK];
     struct rho_imm scratch;
-    /*
-     * prepared for the hypotheses of slot gate_slot: gates for plots of isotropic noise
-     * gate_variance_m2, or predicted range rates
-     */
+    /* of slot gate_slot: gates for isotropic noise gate_variance_m2, or predicted range rates */
     union {
         struct rho_imm_gate gates[RHO_HYPOTHESES_OF_TRACK];
         struct rho_imm_rates rates[RHO_HYPOTHESES_OF_TRACK];
@@ -116,17 +113,11 @@ struct rho_hypotheses_clutter {
     float log_per_range_rate; /* ln of the density in range rate, per m/s */
 };
 
-/*
- * Box that holds the gates of all hypotheses of a track: plots outside of it need not be scored. A
- * margin for a plot's sigma and own time is added.
- */
+/* Box of the gates of all hypotheses of a track, without the margin for a plot's sigma and time. */
 struct rho_hypotheses_box {
     float x_min_m, x_max_m, y_min_m, y_max_m;
     float z_min_m, z_max_m; /* limits of z, for tracks with a height */
-    /*
-     * largest speed and acceleration of all hypotheses, with their uncertainty; below 0 until a
-     * plot with an own time needs them
-     */
+    /* largest speed and acceleration, with uncertainty; < 0 until a plot's own time needs them */
     float speed_max_mps, accel_max_mps2;
     float sigma_factor; /* factor of the plots' sigmas, as learned for their sensor */
 };
@@ -141,9 +132,7 @@ struct rho_hypotheses_scan {
     float log_miss;
     /* the look of a sensor that is blind at some range rates; NULL: at none */
     const struct rho_notch_look *look;
-    /*
-     * track that claims each row of plots, or -1: none; own is this track. NULL: all plots are free
-     */
+    /* claiming track of each row of plots, -1: none; own: this track. NULL: all are free */
     const int16_t *claims;
     int16_t own;
 };
@@ -183,8 +172,7 @@ void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s);
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all
  * slots taken, or the pool full, and no other track with a hypothesis to spare). Cost:
- * RHO_MAX_TRACKS.
- * Stack: 150 bytes.
+ * RHO_MAX_TRACKS. Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool,
                                                    const struct rho_kalman *estimate,
@@ -217,18 +205,14 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *poo
 RHO_MUST_CHECK enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, uint16_t slot,
                                                    int64_t time_us);
 
-/*
- * Begins a scan: removes the candidates of the scan before, and fills *box (may be NULL). Cost: 70
- * instructions a hypothesis and model. Stack: 240 bytes.
- */
+/* Begins a scan, and fills *box (may be NULL). Cost: 70 instructions a filter. Stack: 240 bytes. */
 void rho_hypotheses_gate_box(struct rho_hypotheses *pool, uint16_t slot,
                              struct rho_hypotheses_box *box);
 
 /*
  * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the
- * slot. rho_hypotheses_gate_box must have filled *box since the slot's last
- * prediction; the first plot with an own time completes it. Constant cost otherwise. Stack: 170
- * bytes.
+ * slot. rho_hypotheses_gate_box must have filled *box since the slot's last prediction; the first
+ * plot with an own time completes it. Constant cost otherwise. Stack: 170 bytes.
  */
 int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
                              struct rho_hypotheses_box *box, const struct rho_plot *plot,
@@ -278,9 +262,8 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool
                                                      int64_t time_us);
 
 /*
- * Updates all hypotheses with a bearing from a place that is known to be the target's: their
- * weights change by its likelihood, and those much lighter than the best are removed. Stack: 800
- * bytes.
+ * Updates all hypotheses with a bearing that is known to be the target's, and their weights by its
+ * likelihood; those much lighter than the best are removed. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool,
                                                              uint16_t slot, int64_t time_us,
@@ -290,8 +273,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_update_bearing(struct rho_hypothes
 /*
  * Fills *estimate with the mean over all hypotheses of a slot, moved to time_us. Errors: NULL,
  * STATE (slot), VALUE (no hypothesis can be moved to time_us); *estimate is unchanged. Cost: 450
- * instructions a hypothesis, without heights 300.
- * Stack: 800 bytes.
+ * instructions a hypothesis, without heights 300. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot,
                                                        int64_t time_us,

@@ -76,9 +76,7 @@ struct rho_imm_model {
 /* Transition of both models over one interval, computed once for all estimates. */
 struct rho_imm_step {
     float dt_s;
-    /*
-     * probability that an agile target manoeuvres at the interval's end; that a manoeuvre has ended
-     */
+    /* probability that an agile target manoeuvres at the end; that a manoeuvre has ended */
     float begins, ends;
     /* probability that a calm target manoeuvres; that an agile one has become calm */
     float calm_begins, settles;
@@ -134,16 +132,14 @@ void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, fl
 int rho_imm_model_is_usable(const struct rho_imm_model *model);
 
 /*
- * Fills *step for an interval, -1e5 .. 1e5 s; a negative one has no noise and no transitions
- * between the models. Cost: about 750 instructions, and 100 for each doubling beyond memory_s / 2.
- * Stack: 160 bytes.
+ * Fills *step for an interval, -1e5 .. 1e5 s; a negative one has no noise and no transitions. Cost:
+ * about 750 instructions, 100 more for each doubling beyond memory_s / 2. Stack: 160 bytes.
  */
 void rho_imm_prepare_step(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s);
 
 /*
  * Starts both models from an estimate, with probability 1/2 each and acceleration 0 with the
- * model's sd. A new target is calm with probability calm_s / (calm_s + RHO_IMM_CALM_S): 1/2 for the
- * default calm_s.
+ * model's sd. A new target is calm with probability calm_s / (calm_s + RHO_IMM_CALM_S).
  */
 void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
                    const struct rho_kalman *estimate);
@@ -175,25 +171,16 @@ void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot
 int rho_imm_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
                        struct rho_imm_match *match);
 
-/*
- * Range rates that both models predict for a sensor; they hold for all plots at the estimate's
- * time.
- */
+/* Range rates that both models predict for a sensor and all plots at the estimate's time. */
 struct rho_imm_rates {
     float expected_mps[2]; /* range rate predicted by each model */
-    /*
-     * variance of the predicted range rate; < 0: the model's position is the sensor's, no
-     * prediction
-     */
+    /* variance of the predicted range rate; < 0: none, the position is the sensor's */
     float variance[2];
     /* covariances of the predicted range rate with the state */
     float projected[2][RHO_KALMAN_STATES];
 };
 
-/*
- * Fills *rates with the range rates that both models predict for a sensor. Cost: 1 400
- * instructions, without a height 400. Stack: 328 bytes.
- */
+/* Fills *rates. Cost: 1 400 instructions, without a height 400. Stack: 328 bytes. */
 void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                                  const struct rho_sensor *sensor);
 

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * imm_notch: an IMM filter and a radar's Doppler notch (doppler_notch.h): probability of a blind
- * look, and update by a miss. Stack: 280 bytes at most.
- */
+/* imm_notch: an IMM filter and a radar's Doppler notch. Stack: 280 bytes at most. */
 #ifndef RHOTRACK_IMM_NOTCH_H
 #define RHOTRACK_IMM_NOTCH_H
 
@@ -13,15 +10,11 @@
 extern "C" {
 #endif
 
-/*
- * Probability that the target's range rate is in the sensor's notch, over both models. Cost: twice
- * rho_notch_blind_probability.
- */
+/* Probability of a blind look, over both models. Cost: twice rho_notch_blind_probability. */
 float rho_imm_blind_probability(const struct rho_imm *imm, const struct rho_sensor *sensor);
 
 /*
- * Updates both models, and their probabilities, by a look without a plot. Nothing changes for a
- * sensor without a notch. Cost: rho_notch_update_by_miss twice.
+ * Updates models and probabilities by a miss if there is a notch: rho_notch_update_by_miss twice.
  */
 void rho_imm_update_by_miss(struct rho_imm *imm, const struct rho_sensor *sensor,
                             const struct rho_notch_look *look);

@@ -115,9 +115,8 @@ RHO_MUST_CHECK enum rho_status rho_input_predict(struct rho_input *input,
                                                  const struct rho_input_config *config, float dt_s);
 
 /*
- * One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update; VALUE where an
- * estimated input would exceed 1e12 m/s^2. Cost: about 460 instructions, 880 coupled. Stack: 552
- * bytes.
+ * A scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update; VALUE where an
+ * input would exceed 1e12 m/s^2. Cost: about 460 instructions, 880 coupled. Stack: 552 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_element(struct rho_input *input,
                                                         const struct rho_input_config *config,
@@ -173,8 +172,7 @@ void rho_input_decide(struct rho_input *input, const struct rho_input_config *co
 
 /*
  * Fills *estimate with the corrected estimate, the paper's (14) to (18). Cost: about 260
- * instructions, 2100 coupled.
- * Stack: 160 bytes.
+ * instructions, 2100 coupled. Stack: 160 bytes.
  */
 void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate);
 

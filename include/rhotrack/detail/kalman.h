@@ -78,10 +78,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
                                                     float position_m, float position_variance,
                                                     float velocity_variance);
 
-/*
- * Sets the covariance to variance times I, m^2 and (m/s)^2, on the axes that are open; variance is
- * RHO_VARIANCE_MIN .. MAX. Constant cost.
- */
+/* Sets the open axes' covariance to variance, RHO_VARIANCE_MIN .. MAX, times I. Constant cost. */
 void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
 
 /*
@@ -166,10 +163,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *k
                                                             const struct rho_sensor *sensor,
                                                             float rate_mps, float variance);
 
-/*
- * A bearing from a position as a scalar measurement, linearised at an estimate, in metres across
- * the line of sight.
- */
+/* A bearing as a scalar measurement, linearised, in metres across the line of sight. */
 struct rho_kalman_bearing {
     float row[RHO_KALMAN_STATES];
     float off_m;       /* innovation: measured minus predicted */

@@ -60,10 +60,7 @@ RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float 
 /* Forward substitution: b := L^-1 b for a factor from rho_linalg_cholesky. Cost: n^2 / 2. */
 void rho_linalg_forward(int n, const float *l, float *b);
 
-/*
- * Backward substitution: b := L^-T b. After rho_linalg_forward the result is the solution x of a x
- * = b. Cost: n^2 / 2.
- */
+/* Backward substitution: b := L^-T b; after rho_linalg_forward it solves a x = b. Cost: n^2 / 2. */
 void rho_linalg_backward(int n, const float *l, float *b);
 
 /* ln det(L L^T) = 2 sum ln L_ii, from the Cholesky factor. Cost: n logarithms. */
@@ -101,10 +98,7 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
                                                       float innovation, float variance, float *nis);
 
-/*
- * projected := p row for a symmetric 6 x 6 p; returns row . p row, the variance of row . x. Cost:
- * about 90 instructions.
- */
+/* projected := p row; returns row . p row, the variance of row . x. Cost: about 90 instructions. */
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6]);
 
 /*

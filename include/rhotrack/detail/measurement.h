@@ -13,7 +13,7 @@
  * In the frame of the line of sight a plot is two or three scalars of independent noise: no matrix
  * is inverted. Plots of a scan without heights lie in the horizontal plane: elevation 0, two axes.
  *
- * Stack: 100 bytes at most where nothing else is said.
+ * Constant cost where none is said. Stack: 100 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_MEASUREMENT_H
 #define RHOTRACK_MEASUREMENT_H
@@ -35,10 +35,7 @@ extern "C" {
 /* Least range at which a line of sight is defined. */
 #define RHO_RANGE_LEAST_M 1.0f
 
-/*
- * Interval of heights over which clutter and new targets are assumed to be spread, where heights
- * are measured.
- */
+/* Heights over which clutter and new targets are assumed to be spread, where measured. */
 #define RHO_CLUTTER_HEIGHT_M 20000.0f
 
 /* A plot as its place, the frame of its noise, and the variances in that frame. */
@@ -55,10 +52,7 @@ struct rho_measurement {
 /* Time bias of a sensor in whole microseconds. Constant cost. */
 int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor);
 
-/*
- * True where all measured fields of a plot are finite and within the limits of types.h. Constant
- * cost.
- */
+/* True where all measured fields of a plot are finite and within the limits of types.h. */
 int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures);
 
 /* True where a bearing is within +-pi and its sigma within the limits of types.h. Constant cost. */
@@ -69,10 +63,7 @@ struct rho_sigma_factors {
     float range, cross;
 };
 
-/*
- * Factors of a sensor's sigmas from its percentages; 1 for a percentage of 0, and for NULL.
- * Constant cost.
- */
+/* Factors of a sensor's sigmas from its percentages; 1 for a percentage of 0, and for NULL. */
 struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor);
 
 /* The larger one of a sensor's two sigma factors, at least 1. Constant cost. */
@@ -88,16 +79,10 @@ float rho_measurement_factor_max(const struct rho_sensor *sensor);
 void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
                                const struct rho_sensor *sensor, struct rho_measurement *out);
 
-/*
- * True where a sensor's place, biases and span of range rates are finite and within the limits of
- * types.h. Constant cost.
- */
+/* True where a sensor's place, biases and span are finite and within the limits of types.h. */
 int rho_measurement_is_valid_site(const struct rho_sensor *sensor);
 
-/*
- * Covariance of a plot's noise in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant
- * cost.
- */
+/* Covariance of a plot's noise in x, y, z, a lower triangle: xx, yx, yy, zx, zy, zz. */
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6]);
 
 /* Noise variance of the range along the ground. Constant cost. No stack. */
@@ -126,17 +111,11 @@ int rho_measurement_predict_rate(const float state[6], const struct rho_sensor *
  * are within half the span. Otherwise the range rate counts as not measured. Range rates of a
  * sensor without a span, or of NULL, are taken as they are.
  */
-/*
- * Measured minus expected range rate, brought within +-span/2 by multiples of the span if the
- * sensor's range rates are ambiguous. Cost: a division.
- */
+/* Measured minus expected range rate, brought within +-span/2 if ambiguous. Cost: a division. */
 float rho_measurement_innovation_mps(const struct rho_sensor *sensor, float measured_mps,
                                      float expected_mps);
 
-/*
- * True where the difference of measured and expected range rate has a variance, (m/s)^2, small
- * enough to determine the multiple of the span. Constant cost.
- */
+/* True where an innovation's variance, (m/s)^2, is small enough to determine the multiple. */
 int rho_measurement_can_unfold(const struct rho_sensor *sensor, float variance);
 
 /*
