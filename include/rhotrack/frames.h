@@ -125,17 +125,13 @@ struct rho_frame_view {
     int is_restart;
 };
 
-/*
- * Defaults: tolerance 50 ms, jump_max 30 s, follow_scans 4, silent_frames 3, sensors_min 2.
- * Constant cost.
- */
+/* Defaults: tolerance 50 ms, jump 30 s, follow 4, silent 3, sensors_min 2. Constant cost. */
 void rho_frames_config_default(struct rho_frames_config *config);
 
 /*
  * Initialises an object without frames; the config is copied.
  *   object_size   sizeof(struct rho_frames) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(frames) bytes cleared.
- * Stack: 120 bytes.
+ * Errors: NULL, SIZE, CONFIG (a field outside its range). Cost: sizeof(frames). Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
                                                const struct rho_frames_config *config);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * crossing_votes: phase 2 of the search, a Hough transform. The crossings of
- * bearings vote for lines (rho, theta), and the lines with the most votes are taken one after the
- * other.
+ * crossing_votes: phase 2 of the search, a Hough transform. The crossings of bearings vote for
+ * lines (rho, theta), and the lines with the most votes are taken one after the other.
  */
 #include <string.h>
 

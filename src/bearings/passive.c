@@ -101,10 +101,7 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
                : 0;
 }
 
-/*
- * One pass over the unclaimed bearings: crossings, the lines that they vote for, and candidates
- * from hypotheses on those lines.
- */
+/* A pass over the unclaimed bearings: crossings, the lines that they vote for, candidates. */
 static void find_candidates(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;

@@ -27,8 +27,7 @@
 
 /*
  * A state is the position at mid-batch (x, y) and the displacement in half the batch (dx, dy), all
- * in metres: the position at scan k is (x, y) + step[k] (dx, dy). The origin is the sensors'
- * centroid.
+ * in metres, from the sensors' centroid: the position at scan k is (x, y) + step[k] (dx, dy).
  */
 enum { RHO_PASSIVE_X, RHO_PASSIVE_Y, RHO_PASSIVE_DX, RHO_PASSIVE_DY, RHO_PASSIVE_STATES };
 
@@ -60,10 +59,7 @@ struct rho_passive_search {
 /* Computes the values of *search that follow from the batch: geometry, times, likelihood ratios. */
 void rho_passive_prepare(struct rho_passive_search *search);
 
-/*
- * Sets passive->start_mnat, the score at which false tracks have the allowed rate, from the number
- * of crossings of the first pass.
- */
+/* Sets passive->start_mnat, for the allowed rate of false tracks, by the first pass' crossings. */
 void rho_passive_set_start_score(const struct rho_passive_search *search);
 
 /* Crosses the bearings of all pairs of sensors, scan by scan, into passive->points. */
@@ -121,19 +117,13 @@ struct rho_passive_match {
     float sigma_rad;
 };
 
-/*
- * Matches a state with the nearest bearing of a look, without claimed bearings if include_claimed
- * is 0.
- */
+/* Matches a state with the nearest bearing of a look; include_claimed 0: an unclaimed one. */
 struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    int include_claimed);
 
-/*
- * Matches a state with the bearing `claim` (index from 1) of a look at any distance; claim 0: no
- * bearing, -1.
- */
+/* Matches a state with bearing `claim` (from 1) of a look at any distance; claim 0: none, -1. */
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
@@ -160,10 +150,7 @@ float rho_passive_agreement(const struct rho_passive_search *search,
 typedef uint8_t rho_passive_claim[RHO_MAX_PASSIVE_SENSORS];
 typedef const uint8_t rho_passive_const_claim[RHO_MAX_PASSIVE_SENSORS];
 
-/*
- * Fits a state to the nearest bearings: four Gauss-Newton steps, with gates of 8, 5, 3.5 and 3.5
- * sigmas.
- */
+/* Fits a state to the nearest bearings: four Gauss-Newton steps, in gates of 8 to 3.5 sigmas. */
 void rho_passive_fit_nearest(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES], int include_claimed);
 
@@ -179,10 +166,7 @@ struct rho_passive_score {
     int is_track; /* hits, chi2, speed, observability and score satisfy the conditions of a track */
 };
 
-/*
- * Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores the state with
- * these claims.
- */
+/* Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores it. */
 struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    int include_claimed, rho_passive_claim *claim);
@@ -192,9 +176,7 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    rho_passive_const_claim *claim);
 
-/*
- * Score of a look with the bearing `claim` (from 1) minus the score of a miss; 0 beyond 3.5 sigmas.
- */
+/* Score of a look with bearing `claim` (from 1) minus that of a miss; 0 beyond 3.5 sigmas. */
 float rho_passive_gain_nat(const struct rho_passive_search *search,
                            const float state_m[RHO_PASSIVE_STATES], unsigned scan, unsigned sensor,
                            unsigned claim);
@@ -234,9 +216,7 @@ struct rho_passive_choice {
     unsigned count; /* number of candidates */
     uint8_t is_in[RHO_MAX_PASSIVE_CANDIDATES];
     uint8_t is_out[RHO_MAX_PASSIVE_CANDIDATES]; /* excluded: must not be added to the choice */
-    /*
-     * score of each candidate less the penalties for bearings that it shares with chosen candidates
-     */
+    /* score of each candidate less the penalties for bearings shared with chosen ones */
     float gain_nat[RHO_MAX_PASSIVE_CANDIDATES];
     float total_nat;
 };
@@ -247,10 +227,7 @@ void rho_passive_choose(const struct rho_passive_search *search, struct rho_pass
 /* Excludes from a choice a candidate and all other candidates of the same target. */
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which);
 
-/*
- * Adds a candidate to a choice (which = count: none), then further candidates while the total
- * grows.
- */
+/* Adds a candidate (which = count: none), then further candidates while the total grows. */
 void rho_passive_add_gaining(struct rho_passive_choice *choice, unsigned which);
 
 /* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
@@ -270,9 +247,7 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
 /* Marks the bearings of the best set of candidates as claimed, for the second pass. */
 void rho_passive_claim_best_set(struct rho_passive_search *search);
 
-/*
- * Turns the best set of candidates into the tracks of the search, with margins, best score first.
- */
+/* Turns the best set of candidates into the tracks of the search, with margins, by score. */
 void rho_passive_select_tracks(struct rho_passive_search *search);
 
 #endif

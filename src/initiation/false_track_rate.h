@@ -29,10 +29,7 @@ struct place_class {
     float share; /* share of the area that places of the class have */
 };
 
-/*
- * A pattern: sets with the same number of hits, the first one in the same scan, the last one in the
- * newest.
- */
+/* A pattern: sets of so many hits, the first one in the same scan, the last in the newest. */
 struct pattern {
     uint16_t first, hits;
     float log_choices; /* ln of the number of choices of the scans between */
@@ -44,10 +41,7 @@ struct pattern {
 
 /* Score and weight of a pattern in one class of places. */
 struct pattern_score {
-    /*
-     * expected sets for a margin of 1 nat: births, hits and misses, choices of scans and e^-c, over
-     * Gamma(k + 1)
-     */
+    /* expected sets for a margin of 1 nat: births, hits, misses, choices, e^-c over Gamma(k + 1) */
     float weight;
     float best_nat; /* c: score of a perfect fit */
 };
@@ -56,9 +50,7 @@ struct pattern_score {
 struct false_tracks {
     const struct search *search;
     int has_z, has_range_rate;
-    /*
-     * ln of the number of aliases of a range rate, mean over the scans; 0 where none is ambiguous
-     */
+    /* ln of the number of aliases of a range rate, mean over the scans; 0: none is ambiguous */
     float log_aliases;
     /* by first scan of a track: variance by which process noise bends it, summed over its scans */
     float bend_m2[RHO_MAX_SCANS];
@@ -82,10 +74,7 @@ float rho_false_tracks_above(const struct false_tracks *model, float score_nat, 
 /* Share of the false tracks started at start_nat that are still in the area at the next scan. */
 float rho_false_tracks_staying(const struct false_tracks *model, float start_nat);
 
-/*
- * Score that one more perfect hit adds to a tentative track, in the class of places where that is
- * least.
- */
+/* Score that one more perfect hit adds to a tentative track, least of all classes of places. */
 float rho_false_tracks_least_gain(const struct false_tracks *model);
 
 /*

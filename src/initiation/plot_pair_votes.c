@@ -27,10 +27,7 @@ struct kernel {
     struct rho_window_place place;
 };
 
-/*
- * Aliases of an ambiguous range rate: its error is seen.error_mps + i span_mps, i from first to
- * last.
- */
+/* Aliases of a range rate: its error is seen.error_mps + i span_mps, i from first to last. */
 struct aliases {
     struct rho_window_range_rate seen;
     float span_mps;
@@ -99,10 +96,7 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
            is_range_rate_in_gate(span->scan_b, kernel->to, place);
 }
 
-/*
- * Index of the plot of scan m nearest to the kernel's predicted place, in the gate of the noise of
- * all three plots; -1: none.
- */
+/* Index of scan m's plot nearest to the kernel, in the gate of all three plots' noise; or -1. */
 static int find_vote(struct search *search, const struct span *span, unsigned m,
                      struct kernel *kernel)
 {
@@ -203,10 +197,7 @@ static int limited_whole_spans(float spans)
     return spans < (float)ALIASES_MAX ? (int)spans : ALIASES_MAX;
 }
 
-/*
- * Lists the aliases of a plot's range rate that agree with the velocity of a place. Returns 0 where
- * the range rate is not ambiguous.
- */
+/* Lists the aliases that agree with a place's velocity. Returns 0 where there is no ambiguity. */
 static int list_aliases(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
                         const struct rho_window_place *place, struct aliases *aliases)
 {

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * accumulator_rows: votes of the points in each row of theta, and the peaks of the
- * row.
- */
+/* accumulator_rows: votes of the points in each row of theta, and the peaks of the row. */
 #include <string.h>
 
 #include "accumulator_search.h"

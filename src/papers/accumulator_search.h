@@ -66,10 +66,7 @@ void rho_accumulator_fill_kept(struct rho_accumulator_pass *pass, unsigned slot,
 /* Clears a sparse row: its touched cells, and its lists of touched and reached cells. */
 void rho_accumulator_clear_row(struct rho_accumulator_pass *pass, unsigned slot);
 
-/*
- * Adds the peaks of row theta_cell to the list; the row is in slot theta_cell % 3, its neighbours
- * are in the other slots.
- */
+/* Lists the peaks of row theta_cell, in slot theta_cell % 3; the other slots: its neighbours. */
 void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned theta_cell);
 
 /* Fills all rows of theta in their order, and lists their peaks. */

@@ -84,10 +84,7 @@ void rho_hough_rank_kernel(const struct rho_hough *hough, struct rho_line line,
                            struct rho_line kernel, struct rho_hough_pair pair,
                            struct rho_hough_nearest *nearest);
 
-/*
- * Vote of a pair with the given nearest kernels, in units of 1 / RHO_HOUGH_VOTE; 0: it does not
- * vote.
- */
+/* Vote of a pair with these nearest kernels, in units of 1 / RHO_HOUGH_VOTE; 0: none. */
 uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
                                struct rho_line line, const struct rho_hough_nearest *nearest);
 struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
@@ -101,18 +98,12 @@ void rho_hough_vote_pairs(struct rho_hough_pass *pass);
 void rho_hough_clear_cells(struct rho_hough_pass *pass);
 void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint32_t votes);
 
-/*
- * Fills the Gaussian weights by which votes are spread, by distance in rows or columns, in units of
- * 1 / RHO_HOUGH_VOTE.
- */
+/* Fills the weights that spread votes, by distance in rows or columns, in 1 / RHO_HOUGH_VOTE. */
 void rho_hough_spread_weights(uint32_t shares[RHO_HOUGH_REACH_MAX + 1], unsigned reach, float cell,
                               float eps);
 uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share);
 
-/*
- * Adds the cells of the wanted rows, with their sums of votes, to the list of peaks; list NULL: to
- * the plane of the pass.
- */
+/* Adds the summed cells of the wanted rows to the list; list NULL: to the plane of the pass. */
 void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *list);
 
 /* Memberships of the vote of a pair whose second plot is of scan `scan`. */

@@ -61,10 +61,7 @@ int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
 struct rho_passive_paper_bearings {
     float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
 };
-/*
- * Collects the bearings of two sensors in a scan, fills their ghost matrix and prunes it. Returns 0
- * on an error.
- */
+/* Fills and prunes the ghost matrix of two sensors' bearings in a scan. Returns 0 on an error. */
 int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
                                   const struct rho_batch *batch,
                                   const struct rho_crossing_base *base, unsigned scan,
@@ -72,10 +69,7 @@ int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
                                   struct rho_passive_paper_bearings *bearings,
                                   struct rho_ghost_matrix *matrix);
 
-/*
- * Crosses the bearings of two sensors in all scans, prunes ghosts, and stores the rest in
- * paper->points.
- */
+/* Crosses two sensors' bearings in all scans; those kept go to paper->points. */
 void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b);
 
 /* Column (cell of rho) in which a crossing votes for lines of a direction; -1: outside. */
@@ -87,15 +81,10 @@ int rho_passive_paper_column(const struct rho_passive_paper_search *search,
 void rho_passive_paper_count_row(const struct rho_passive_paper_search *search, int row,
                                  uint8_t counts[RHO_PAPER_RHO_CELLS]);
 
-/*
- * Crosses and votes with all pairs of sensors: sums of votes into paper->cells, 0 where not all
- * pairs confirm the cell.
- */
+/* Sums the votes of all pairs of sensors into paper->cells, 0 where not all confirm a cell. */
 void rho_passive_paper_vote_pairs(struct rho_passive_paper_search *search);
 
-/*
- * Chooses lines from the cells, most votes first; then fits a position and velocity to each line.
- */
+/* Chooses lines from the cells, most votes first; then fits position and velocity to each. */
 void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search);
 void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search);
 

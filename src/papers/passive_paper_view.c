@@ -90,10 +90,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
     return RHO_OK;
 }
 
-/*
- * Prepares a search of the batch. STATE: the batch has too few scans or sensors; VALUE: no such
- * pair.
- */
+/* Prepares a search. STATE: the batch has too few scans or sensors; VALUE: no such pair. */
 static enum rho_status prepare_search(struct rho_passive_paper *paper,
                                       const struct rho_passive_paper_pair *pair,
                                       struct rho_passive_paper_search *search)

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * nearest_plot: access to the held scans and plots of a window, their bins, and the search for the
- * plot nearest to a place.
- */
+/* nearest_plot: held scans and plots of a window, their bins, the plot nearest to a place. */
 #include "policy.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
@@ -24,10 +21,7 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
     return &window->ring[place < window->scans_max ? place : place - window->scans_max];
 }
 
-/*
- * Row or column of a coordinate among n bins. Coordinates outside get the border bins, NaN the
- * first one.
- */
+/* Row or column of a coordinate among n bins; outside: a border bin, for NaN the first. */
 static int bin_coordinate(float v_m, float origin_m, float cells_per_m, int n)
 {
     float cell = (v_m - origin_m) * cells_per_m;

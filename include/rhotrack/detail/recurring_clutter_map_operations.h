@@ -40,10 +40,7 @@ float rho_clutter_map_decay_factor(float turn_share);
 /* Decays the counts in use over `turn_share` of a revolution; closes the newest block when due. */
 void rho_clutter_map_age_counts(struct rho_clutter_map *map, float turn_share);
 
-/*
- * Takes the returns of a target's plots out of the counts of a region: by class of hits, the sum of
- * its echoes' weights.
- */
+/* Takes a target's returns out of a region's counts: by class of hits, its echoes' weights. */
 void rho_clutter_map_remove_returns(struct rho_clutter_map *map, unsigned region,
                                     const float returns[RHO_ECHO_HIT_CLASSES]);
 /* Class of an echo by its number of hits: 0 .. RHO_ECHO_HIT_CLASSES - 1. */
