@@ -29,9 +29,8 @@
  * counted and left out, so that one sensor with a wrong clock does not make all others late. Once
  * such scans outnumber the others by follow_scans, the next such scan sets the clock, and the
  * frames start anew at its time (is_restart). So the majority of the sensors sets the clock; of two
- * sensors, the first one does.
- * A clock that is ahead by more than the scan interval but less than jump_max_us makes the other
- * sensors late as long as it lasts: scans_late counts them.
+ * sensors, the first one does. A clock that is ahead by more than the scan interval but less than
+ * jump_max_us makes the other sensors late as long as it lasts: scans_late counts them.
  *
  * The object holds no pointers: a memcpy is a snapshot.
  *

@@ -164,10 +164,8 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)
 {
     unsigned sensors = 0;
-
     for (unsigned sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
         unsigned claims = 0;
-
         for (unsigned scan = 0; scan < RHO_MAX_PASSIVE_SCANS; scan++) {
             claims |= track->claim[scan][sensor];
         }

@@ -24,19 +24,13 @@ float rho_density_area_m2(const struct rho_initiator *initiator)
 
 static unsigned clamp_cell_count(float cells)
 {
-    if (!(cells >= 1.0f)) {
-        return 1;
-    }
-    return cells < (float)RHO_MAX_DENSITY_CELLS ? (unsigned)cells : RHO_MAX_DENSITY_CELLS;
+    const float most = (float)RHO_MAX_DENSITY_CELLS;
+    return cells >= 1.0f ? (unsigned)(cells < most ? cells : most) : 1u;
 }
 
 static unsigned cell_at(float v, float min, float side, unsigned cells)
 {
-    float cell = (v - min) * (float)cells / side;
-    if (!(cell > 0.0f)) {
-        return 0;
-    }
-    return cell < (float)cells ? (unsigned)cell : cells - 1u;
+    return (unsigned)rho_cell_at((v - min) * (float)cells / side, (int)cells);
 }
 
 static float distance_m(float dx_m, float dy_m)

@@ -63,30 +63,24 @@ struct false_tracks {
 
 /* Fills the model for the window of a search. */
 void rho_false_tracks_model(const struct search *search, struct false_tracks *model);
-
 /*
  * Expected number of false tracks of one search whose score reaches score_nat at once, and which
  * had not reached start_nat before. Counting ends at `stop_at_sum`; FLT_MAX counts all.
  */
 float rho_false_tracks_above(const struct false_tracks *model, float score_nat, float start_nat,
                              float stop_at_sum);
-
 /* Share of the false tracks started at start_nat that are still in the area at the next scan. */
 float rho_false_tracks_staying(const struct false_tracks *model, float start_nat);
-
 /* Score that one more perfect hit adds to a tentative track, least of all classes of places. */
 float rho_false_tracks_least_gain(const struct false_tracks *model);
-
 /*
  * Fewest hits, at least the model's least_hits, with which sets from scan `first` to the newest
  * reach start_nat in any class; N + 1 where none do.
  */
 unsigned rho_false_tracks_least_hits(const struct false_tracks *model, unsigned first,
                                      float start_nat);
-
 /* Clutter plots within the noise of a plot, in the class of places with the fewest; at most 1. */
 float rho_false_tracks_thinnest(const struct false_tracks *model);
-
 /* True where at least half of the targets with the least number of hits reach start_nat. */
 int rho_false_tracks_let_start(const struct false_tracks *model, float start_nat);
 

@@ -9,8 +9,7 @@
 
 static float plot_variance_m2(const struct rho_window_plot *plot)
 {
-    float sigma_m = rho_window_larger_sigma_m(plot);
-    return sigma_m * sigma_m;
+    return rho_square(rho_window_larger_sigma_m(plot));
 }
 
 /* Weighted moments of a set's plots about their mean, so that no large numbers are subtracted. */

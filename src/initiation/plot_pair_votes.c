@@ -34,11 +34,6 @@ struct aliases {
     int first, last;
 };
 
-static float squared(float v)
-{
-    return v * v;
-}
-
 static int is_range_rate_in_gate(const struct rho_window_scan *scan,
                                  const struct rho_window_plot *plot,
                                  const struct rho_window_place *place)
@@ -57,8 +52,8 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
     struct rho_window_place *place = &kernel->place;
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     if (rho_search_is_isotropic(search)) {
-        kernel->from_m2 = squared(rho_window_larger_sigma_m(kernel->from));
-        kernel->to_m2 = squared(rho_window_larger_sigma_m(kernel->to));
+        kernel->from_m2 = rho_square(rho_window_larger_sigma_m(kernel->from));
+        kernel->to_m2 = rho_square(rho_window_larger_sigma_m(kernel->to));
         kernel->query = (struct rho_window_query){
             .vx_mps = kernel->dx_m / kernel->duration_s,
             .vy_mps = kernel->dy_m / kernel->duration_s,
@@ -81,7 +76,7 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
     if (!search->has_more) {
         return 1;
     }
-    float turned = squared(0.5f * search->turn_mps2 * kernel->duration_s), over_mps = 0.0f;
+    float turned = rho_square(0.5f * search->turn_mps2 * kernel->duration_s), over_mps = 0.0f;
     place->velocity_noise = (struct rho_window_plot_noise){
         (a->xx_m2 + b->xx_m2) * per_s2 + turned, (a->xy_m2 + b->xy_m2) * per_s2,
         (a->yy_m2 + b->yy_m2) * per_s2 + turned, (a->zz_m2 + b->zz_m2) * per_s2};

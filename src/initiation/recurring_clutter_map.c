@@ -150,9 +150,7 @@ float rho_clutter_map_azimuth_turns(const struct echo_view *view)
 /* Index of a region on one axis: azimuth in turns, or root of the range over the maximum range. */
 static unsigned region_index_on_axis(float share)
 {
-    const float cell = share * (float)RHO_ECHO_REGIONS;
-    return cell > 0.0f ? cell < (float)RHO_ECHO_REGIONS ? (unsigned)cell : RHO_ECHO_REGIONS - 1u
-                       : 0;
+    return (unsigned)rho_cell_at(share * (float)RHO_ECHO_REGIONS, RHO_ECHO_REGIONS);
 }
 
 uint8_t rho_clutter_map_region_at(const struct rho_sensor *sensor, float range_max_m, float x_m,

@@ -76,6 +76,17 @@ static inline float rho_smaller(float a, float b)
     return a < b ? a : b;
 }
 
+static inline float rho_square(float v)
+{
+    return v * v;
+}
+
+/* The cell of 0 .. n - 1 nearest to a place counted in cells; NaN: 0. No stack. */
+static inline int rho_cell_at(float place, int n)
+{
+    return place > 0.0f ? place < (float)n ? (int)place : n - 1 : 0;
+}
+
 /*
  * Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 1e-7.
  */
