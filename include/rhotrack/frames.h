@@ -29,9 +29,8 @@
  * counted and left out, so that one sensor with a wrong clock does not make all others late. Once
  * such scans outnumber the others by follow_scans, the next such scan sets the clock, and the
  * frames start anew at its time (is_restart). So the majority of the sensors sets the clock; of two
- * sensors, the first one does.
- * A clock that is ahead by more than the scan interval but less than jump_max_us makes the other
- * sensors late as long as it lasts: scans_late counts them.
+ * sensors, the first one does. A clock that is ahead by more than the scan interval but less than
+ * jump_max_us makes the other sensors late as long as it lasts: scans_late counts them.
  *
  * The object holds no pointers: a memcpy is a snapshot.
  *
@@ -125,17 +124,13 @@ struct rho_frame_view {
     int is_restart;
 };
 
-/*
- * Defaults: tolerance 50 ms, jump_max 30 s, follow_scans 4, silent_frames 3, sensors_min 2.
- * Constant cost.
- */
+/* Defaults: tolerance 50 ms, jump 30 s, follow 4, silent 3, sensors_min 2. Constant cost. */
 void rho_frames_config_default(struct rho_frames_config *config);
 
 /*
  * Initialises an object without frames; the config is copied.
  *   object_size   sizeof(struct rho_frames) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(frames) bytes cleared.
- * Stack: 120 bytes.
+ * Errors: NULL, SIZE, CONFIG (a field outside its range). Cost: sizeof(frames). Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
                                                const struct rho_frames_config *config);

@@ -89,8 +89,7 @@ struct rho_hough_config {
     float p_false, lambda_k;
     /*
      * 1: the vote counts I, the nearness of the pair's line to the line between the two nearest
-     * kernels, through the midpoints of their plots; 0: it does not. No effect of I could be
-     * measured.
+     * kernels, through the midpoints of their plots; 0: not. No effect of I could be measured.
      */
     int uses_indeterminacy;
     /* votes of HT: distinct scans, or points, as in the paper; the other methods ignore it */
@@ -114,10 +113,7 @@ struct rho_hough_points {
 
 struct rho_hough_result {
     uint32_t num_peaks;
-    /*
-     * upper bound of the number of cells above the thresholds that were left out for lack of room,
-     * the lowest ones
-     */
+    /* upper bound of the cells above the thresholds left out for lack of room, the lowest ones */
     uint32_t cells_dropped;
     uint32_t pairs;      /* pairs of plots of successive scans; 0 for HT */
     uint32_t candidates; /* pairs of plots within the limits of speed; 0 for HT */
@@ -125,10 +121,7 @@ struct rho_hough_result {
     uint32_t cells;      /* number of cells with votes; 0 for HT */
     uint32_t votes_max;  /* most votes of a cell, in units of 1 / RHO_HOUGH_VOTE */
     uint32_t passes;     /* number of passes over parts of theta */
-    /*
-     * votes and kernels left out because a single row of theta had more than RHO_MAX_HOUGH_CELLS or
-     * RHO_MAX_HOUGH_KERNELS
-     */
+    /* left out as one row of theta had more than RHO_MAX_HOUGH_CELLS, RHO_MAX_HOUGH_KERNELS */
     uint32_t votes_dropped, kernels_dropped;
 };
 
@@ -153,8 +146,7 @@ enum rho_hough_component {
     RHO_HOUGH_FALSITY,       /* falsity memberships, eq. (18): C_F */
     /*
      * the largest of the three memberships of each vote, eq. (24) as printed. (19) takes the
-     * largest of the three sums instead, which is never more, and equal where the same membership
-     * is largest in all votes
+     * largest sum instead: never more, and equal where one membership is largest in all votes
      */
     RHO_HOUGH_LARGEST,
     RHO_NUM_HOUGH_COMPONENTS
@@ -162,10 +154,7 @@ enum rho_hough_component {
 
 /* Votes of a cell, and the position and velocity fitted through the plots that voted for it. */
 struct rho_hough_track {
-    /*
-     * votes of the cell, in units of 1 / RHO_HOUGH_VOTE; with reading C rounded, by up to 2 units a
-     * pair
-     */
+    /* votes of the cell, in 1 / RHO_HOUGH_VOTE; reading C: rounded, by up to 2 units a pair */
     uint32_t votes;
     uint32_t num_plots; /* number of plots that voted, each counted once */
     uint16_t mask;      /* scans of the plots that voted: bit m for scan m */
@@ -232,14 +221,12 @@ RHO_MUST_CHECK enum rho_status rho_hough_init(struct rho_hough *hough, size_t ob
  *   peaks   room for max_peaks cells, from which the peaks are chosen; best first, votes in units
  *           of 1 / RHO_HOUGH_VOTE; mask is filled with HT and RHO_VOTES_SCANS, else 0
  *   result  all fields are filled
- * A pair of plots in one place has no line and does not vote; nor do pairs with a line beyond
- * rho_max_m.
+ * A pair of plots in one place has no line and does not vote, nor do lines beyond rho_max_m.
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a
  * scan, a place not finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s);
  * nothing but *hough's scratch is changed.
  * Cost: HT as rho_accumulator_find_peaks. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2
- * additions a vote. Then the cells above the thresholds, n log n. Stack: 1 KB, HT 1.9 KB, NHT_C
- * 2.8 KB.
+ * additions a vote. Then n log n of the cells found. Stack: 1 KB, HT 1.9 KB, NHT_C 2.8 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_hough_find(struct rho_hough *hough,
                                               const struct rho_hough_points *points,

@@ -60,8 +60,7 @@ struct rho_initiator_config {
     float process_noise_mps2;
     /*
      * standard deviation of accelerations in the plane that are constant over the window: the
-     * search after every scan also finds targets that turn or change their speed; 0: straight ones
-     * alone
+     * search after every scan also finds targets that turn or change speed; 0: straight ones alone
      */
     float turn_mps2;
     /* limit of the work of a search, up to 1e8 units; in a batch for each last scan; 0: none */
@@ -86,9 +85,7 @@ struct rho_candidate {
     float z_m, vz_mps; /* fitted height and climb rate; 0 unless has_z */
 };
 
-/*
- * Work of the last search, and candidates dropped for lack of room or work. All counters saturate.
- */
+/* Work of the last search, and candidates dropped for lack of room or work. Counters saturate. */
 struct rho_initiator_work {
     uint32_t seeds; /* kernels tried */
     struct rho_window_work window;
@@ -135,10 +132,7 @@ struct rho_density_map {
     float u0, v0, width, height;
     uint8_t is_polar, columns, rows;
     int32_t sensor_id; /* sensor whose plots the map counts, where there are several maps */
-    /*
-     * plots of the window in each cell, saturating; cell row * columns + column, u along the
-     * columns
-     */
+    /* plots of the window by cell, saturating: row * columns + column, u along the columns */
     uint16_t count[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
 };
 
@@ -169,25 +163,17 @@ struct rho_initiator {
     struct rho_initiator_config config;
     struct rho_initiator_work work;
     float density_per_m2; /* clutter density in the last search, plots a scan: mean over the area */
-    /*
-     * density maps in use. 1: one for all sensors; several: one a sensor; 0: nothing was searched
-     * yet
-     */
+    /* density maps in use. 1: one for all sensors; several: one a sensor; 0: before any search */
     uint16_t num_maps;
     /* density map and thresholds are those of the newest scan's revolution */
     uint16_t has_revolution;
     struct rho_density_map density[RHO_MAX_DENSITY_MAPS];
-    /*
-     * by age order of the scans: plots a scan of the sensor over the mean of all sensors; 0: no
-     * scan
-     */
+    /* by age order of the scans: plots a scan of the sensor over the mean of all; 0: no scan */
     float sensor_ratio[RHO_MAX_SCANS];
     int32_t sensor_id[RHO_MAX_SCANS];
     struct rho_clutter_memory memory;
     struct rho_initiator_budget budget;
-    /*
-     * limit of thin clutter: 0.9 times the fewest clutter plots in a plot's noise at sampled places
-     */
+    /* limit of thin clutter: 0.9 times the fewest clutter plots in a sampled plot's noise */
     float thin_clutter;
     /* by a set's first scan: hits that it needs where clutter is not thin */
     uint8_t span_hits[RHO_MAX_SCANS];
@@ -207,8 +193,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config);
 /*
  * Prepares an empty initiator; the config is copied.
  *   size   sizeof(struct rho_initiator) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared.
- * Stack: 168 bytes.
+ * Errors: NULL, SIZE, CONFIG (a field out of range). Cost: sizeof(initiator). Stack: 168 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
                                                   const struct rho_initiator_config *config);
@@ -222,16 +207,10 @@ RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiato
 RHO_MUST_CHECK enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
                                                          const struct rho_initiator_config *config);
 
-/*
- * True where a scan of this time can be pushed: the initiator is initialised, and no scan that it
- * holds is newer. Constant cost.
- */
+/* True where the initiator is initialised and holds no scan newer than time_us. Constant cost. */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
-/*
- * rho_window_push on the initiator's window; candidates of an earlier search are cleared.
- * Stack: 288 bytes.
- */
+/* rho_window_push on the initiator's window, which clears old candidates. Stack: 288 bytes. */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,
                                                   const struct rho_sensor *sensor, uint8_t *fates,
@@ -279,9 +258,8 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
                             float y_m);
 
 /*
- * True where an object of unknown origin (a snapshot, memory that outlived a reset) is consistent:
- * counts, indices and numbers are within their limits. rho_snapshot_load calls it. Cost: all plots
- * held. Stack: 250 bytes.
+ * True where counts, indices and numbers of an object of unknown origin are within their limits, as
+ * rho_snapshot_load asks. Cost: all plots held. Stack: 250 bytes.
  */
 int rho_initiator_is_sound(const struct rho_initiator *initiator);
 

@@ -84,8 +84,7 @@ void rho_paper_starts_config_default(struct rho_paper_starts_config *config,
 /*
  * Prepares an empty window; the config is copied.
  *   size   sizeof(struct rho_paper_starts) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(starts) bytes cleared.
- * Stack: 250 bytes.
+ * Errors: NULL, SIZE, CONFIG (a field outside its range). Cost: sizeof(starts). Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t size,
                                                      const struct rho_paper_starts_config *config);

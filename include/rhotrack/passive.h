@@ -53,10 +53,7 @@ struct rho_passive_config {
      * share is required of all looks
      */
     float hits_min;
-    /*
-     * size of the cells of rho: at least 2 (range_max_m + distance of the farthest sensor) /
-     * RHO_PASSIVE_RHO_CELLS
-     */
+    /* size of the cells of rho: >= 2 (range_max_m + farthest sensor) / RHO_PASSIVE_RHO_CELLS */
     float rho_cell_m;
     /* size of the cells of theta: at least pi / RHO_PASSIVE_THETA_CELLS */
     float theta_cell_rad;
@@ -76,9 +73,7 @@ struct rho_passive_track {
     float chi2;
     uint16_t hits;  /* number of bearings of the track */
     uint16_t scans; /* scans with bearings of the track: bit k for scan k, 0 the oldest */
-    /*
-     * bearings of the track: for each scan and sensor the index in the batch, from 1; 0: no bearing
-     */
+    /* bearings of the track: for each scan and sensor the index in the batch, from 1; 0: none */
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 
@@ -96,10 +91,7 @@ struct rho_passive_work {
     uint32_t candidates_dropped; /* candidates beyond RHO_MAX_PASSIVE_CANDIDATES */
 };
 
-/*
- * A crossing of two bearings that was not pruned, with covariance, relative to the sensors'
- * centroid.
- */
+/* A crossing that was not pruned, with covariance, relative to the sensors' centroid. */
 struct rho_passive_point {
     float x_m, y_m;
     float xx_m2, xy_m2, yy_m2;
@@ -175,16 +167,12 @@ void rho_passive_config_default(struct rho_passive_config *config);
 /*
  * Initialises the passive initiator with an empty batch; the config is copied.
  *   object_size   sizeof(struct rho_passive) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(passive) bytes cleared.
- * Stack: 170 bytes.
+ * Errors: NULL, SIZE, CONFIG (a field outside its range). Cost: sizeof(passive). Stack: 170 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size,
                                                 const struct rho_passive_config *config);
 
-/*
- * Tells whether rho_passive_push would take the frame. Errors: STATE (not initialised), and those
- * of rho_batch_accepts.
- */
+/* Status of a push of the frame: NULL, STATE (not initialised), or that of rho_batch_accepts. */
 RHO_MUST_CHECK enum rho_status rho_passive_accepts(const struct rho_passive *passive,
                                                    const struct rho_frame *frame);
 
@@ -208,16 +196,12 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 
-/*
- * Number of pairs of sensors that both gave the track a bearing. Cost: RHO_MAX_PASSIVE_SCANS x
- * RHO_MAX_PASSIVE_SENSORS.
- */
+/* Pairs of sensors that both gave the track a bearing. Cost: all claims. */
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track);
 
 /*
- * True if the object is valid, whatever its bytes come from (a snapshot, memory that outlived a
- * reset): counts and indices are within their arrays, numbers within their limits.
- * rho_snapshot_load asks it. Cost: all bearings held. Stack: 250 bytes.
+ * True where counts, indices and numbers of an object of unknown origin are within their limits, as
+ * rho_snapshot_load asks. Cost: all bearings held. Stack: 250 bytes.
  */
 int rho_passive_is_sound(const struct rho_passive *passive);
 

@@ -64,9 +64,7 @@ struct rho_passive_paper_config {
 /* A line found by a search, through the centre of its cell. */
 struct rho_passive_paper_line {
     float rho_m, theta_rad; /* the line x cos(theta) + y sin(theta) = rho; 0 <= theta < pi */
-    /*
-     * votes of the pair of sensors that gave the line least, in the cell where it confirms the line
-     */
+    /* votes of the pair of sensors that gave the line least, in the cell that confirms it */
     uint16_t votes;
     /* sum of all pairs' votes in the line's own cell, by which lines are ordered; stops at 254 */
     uint16_t votes_sum;
@@ -90,10 +88,7 @@ struct rho_passive_paper_line {
 struct rho_passive_paper_work {
     /* crossings of all pairs of bearings, and those removed as ghosts */
     uint32_t crossings, ghosts;
-    /*
-     * crossings of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS, of the newest scans; 0 in
-     * the default profiles
-     */
+    /* crossings of a pair of sensors beyond RHO_MAX_PAPER_CROSSINGS, of the newest scans */
     uint32_t points_dropped;
     uint32_t votes;         /* votes cast: crossings that were not removed, times rows */
     uint32_t cells;         /* cells that every pair of sensors confirms */
@@ -105,10 +100,7 @@ struct rho_passive_paper_point {
     float x_m, y_m;
 };
 
-/*
- * Sums of a least-squares fit through the crossings that voted for a line, relative to the first
- * one.
- */
+/* Sums of a least-squares fit through a line's crossings, relative to the first one. */
 struct rho_passive_paper_fit {
     int16_t row, column; /* cell of the line */
     uint32_t count;
@@ -129,8 +121,7 @@ struct rho_passive_paper {
     struct rho_batch batch;
     /*
      * scratch of a search: of all pairs of sensors 1 and the votes, or 0 where they do not confirm;
-     * of one pair three rows, and its crossings, those of scan k from scan_end[k - 1] to
-     * scan_end[k] - 1
+     * of one pair three rows, and its crossings, of scan k from scan_end[k - 1] to scan_end[k] - 1
      */
     struct rho_passive_paper_fit fits[RHO_MAX_PASSIVE_LINES];
     uint8_t cells[RHO_PAPER_THETA_CELLS][RHO_PAPER_RHO_CELLS];

@@ -12,11 +12,6 @@
 
 #define N RHO_PASSIVE_STATES
 
-static float square(float v)
-{
-    return v * v;
-}
-
 static float floored_sigma_rad(const struct rho_passive_search *search,
                                const struct rho_batch_bearing *bearing)
 {
@@ -35,7 +30,7 @@ struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passiv
 
 static float squared_range_m2(struct rho_passive_offset offset)
 {
-    return square(offset.x_m) + square(offset.y_m);
+    return rho_square(offset.x_m) + rho_square(offset.y_m);
 }
 
 /* Bin of a direction, counted along the diamond |x| + |y| = 1, which needs no arctangent. */
@@ -108,10 +103,10 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
     for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
         float cross_range_m = bearings[i].sine * offset.x_m - bearings[i].cosine * offset.y_m;
         float sigma_rad = floored_sigma_rad(search, &bearings[i]);
-        if (square(cross_range_m * nearest.sigma_rad) < least_m2 * square(sigma_rad) &&
+        if (rho_square(cross_range_m * nearest.sigma_rad) < least_m2 * rho_square(sigma_rad) &&
             bearings[i].cosine * offset.x_m + bearings[i].sine * offset.y_m > 0.0f &&
             (include_claimed || !passive->is_claimed[scan][sensor][i])) {
-            least_m2 = square(cross_range_m);
+            least_m2 = rho_square(cross_range_m);
             nearest = (struct rho_passive_match){(int)i, offset, cross_range_m, sigma_rad};
         }
     }
@@ -179,8 +174,8 @@ float rho_passive_agreement(const struct rho_passive_search *search, const float
                 search, k, s, rho_passive_offset_from_sensor(search, k, s, state_m),
                 !search->is_second);
             float reach_m2 =
-                squared_range_m2(nearest.offset) * square(MATCH_SIGMAS * nearest.sigma_rad);
-            float share = square(nearest.cross_range_m) / reach_m2;
+                squared_range_m2(nearest.offset) * rho_square(MATCH_SIGMAS * nearest.sigma_rad);
+            float share = rho_square(nearest.cross_range_m) / reach_m2;
             most -= 1.0f - (nearest.bearing >= 0 && share < 1.0f ? 1.0f - share : 0.0f);
         }
     }

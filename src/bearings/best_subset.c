@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * best_subset: the subset of candidates that are tracks together. Its total is
- * the sum of the scores less share_nat for every bearing that two chosen candidates claim. The
- * search adds the candidate that gains most, from several starts, and tries to replace each chosen
- * candidate by others.
+ * best_subset: the candidates that are tracks together. Their total is the sum of the scores less
+ * share_nat for every bearing that two of them claim. The search adds the candidate that gains
+ * most, from several starts, and tries to replace each chosen candidate by others.
  */
 #include <string.h>
 

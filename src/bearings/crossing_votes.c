@@ -1,19 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * crossing_votes: phase 2 of the search, a Hough transform. The crossings of
- * bearings vote for lines (rho, theta), and the lines with the most votes are taken one after the
- * other.
+ * crossing_votes: phase 2 of the search, a Hough transform. The crossings of bearings vote for
+ * lines (rho, theta), and the lines with the most votes are taken one after the other.
  */
 #include <string.h>
 
 #include "passive_search.h"
 #include "policy.h"
 #include "rhotrack/types.h"
-
-static int clipped_cell(float cell, int last)
-{
-    return cell > 0.0f ? (cell < (float)last ? (int)cell : last) : 0;
-}
 
 static unsigned max_votes_of_row(const struct rho_passive_search *search, unsigned row)
 {
@@ -29,7 +23,6 @@ void rho_passive_vote_lines(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
     float cell_m = passive->config.rho_cell_m;
-    int last = search->rho_cells - 1;
     memset(passive->cells, 0, sizeof passive->cells);
     for (unsigned row = 0; row < search->theta_cells; row++) {
         float cosine = search->cosine[row], sine = search->sine[row];
@@ -40,8 +33,8 @@ void rho_passive_vote_lines(struct rho_passive_search *search)
             float middle = rho_m / cell_m + 0.5f * (float)search->rho_cells;
             float reach = SPREAD_SIGMAS * rho_passive_rho_sigma_m(point, cosine, sine) / cell_m;
             reach = reach < (float)SPREAD_CELLS_MAX ? reach : (float)SPREAD_CELLS_MAX;
-            int to = clipped_cell(middle + reach, last);
-            for (int i = clipped_cell(middle - reach, last); i <= to; i++) {
+            int to = rho_cell_at(middle + reach, search->rho_cells);
+            for (int i = rho_cell_at(middle - reach, search->rho_cells); i <= to; i++) {
                 passive->cells[row][i] = (uint16_t)(passive->cells[row][i] | 1u << point->scan);
             }
         }

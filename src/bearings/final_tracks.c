@@ -13,10 +13,7 @@
 
 static const float none_nat = -1.0e9f;
 
-/*
- * Choices without the target of one candidate: alternative i has candidate i in its place, the last
- * alternative has none.
- */
+/* Choices without a candidate's target: alternative i has candidate i instead, the last none. */
 struct alternatives {
     struct rho_passive_choice without;
     /* total score of each alternative; none_nat: no such alternative, or already fitted */

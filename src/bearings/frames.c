@@ -106,9 +106,7 @@ static int has_scan_of(const struct rho_frames_slot *slot, unsigned sensor)
     return 0;
 }
 
-/*
- * The open frame, if it has scans, becomes the closed frame; the other slot is emptied and opened.
- */
+/* The open frame, if it has scans, becomes the closed one; the other slot is emptied and opened. */
 static void close_open_frame(struct rho_frames *frames)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];

@@ -47,9 +47,7 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
     return RHO_OK;
 }
 
-/*
- * The beams of one sensor: rows or columns of the ghost matrix, which are pruned by the same rule.
- */
+/* The beams of one sensor: rows or columns of the matrix, which are pruned by the same rule. */
 struct beams {
     struct rho_ghost_matrix *matrix;
     unsigned count, others; /* number of beams of this sensor, and of the other one */

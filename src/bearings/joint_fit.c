@@ -112,10 +112,7 @@ static void assign_look(const struct rho_passive_search *search, struct rho_pass
     }
 }
 
-/*
- * Drops the member of the set that fails a track's tests and has the lowest score. Returns 0 where
- * all members are tracks.
- */
+/* Drops the member with the lowest score that is no track. Returns 0 where all are tracks. */
 static int drop_worst_non_track(struct rho_passive_set *set)
 {
     unsigned worst = set->num;
@@ -136,10 +133,7 @@ static int drop_worst_non_track(struct rho_passive_set *set)
     return 1;
 }
 
-/*
- * Assigns the bearings of all looks and fits the set, and drops its worst member, until all members
- * pass the tests of a track.
- */
+/* Assigns all bearings, fits the set and drops its worst member until all members are tracks. */
 static void fit_set(const struct rho_passive_search *search, struct rho_passive_set *set)
 {
     const struct rho_batch *batch = &search->passive->batch;

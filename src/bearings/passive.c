@@ -101,10 +101,7 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
                : 0;
 }
 
-/*
- * One pass over the unclaimed bearings: crossings, the lines that they vote for, and candidates
- * from hypotheses on those lines.
- */
+/* A pass over the unclaimed bearings: crossings, the lines that they vote for, candidates. */
 static void find_candidates(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;
@@ -167,10 +164,8 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)
 {
     unsigned sensors = 0;
-
     for (unsigned sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
         unsigned claims = 0;
-
         for (unsigned scan = 0; scan < RHO_MAX_PASSIVE_SCANS; scan++) {
             claims |= track->claim[scan][sensor];
         }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * passive_crossings: phase 1 of the search. Bearings of two sensors in one scan cross; crossings
- * that must be ghosts are pruned, and with three sensors or more a further sensor must support a
- * crossing.
+ * that must be ghosts are pruned, and of three sensors or more another one must support a crossing.
  */
 #include <string.h>
 
@@ -33,9 +32,7 @@ static unsigned collect_bearings(const struct rho_passive_search *search, unsign
     return count;
 }
 
-/*
- * Whether a sensor has a bearing towards the crossing, within the errors of bearing and crossing.
- */
+/* Whether a sensor has a bearing towards the crossing, within the errors of both. */
 static int has_bearing_towards(const struct rho_passive_search *search, unsigned sensor,
                                const struct rho_passive_point *point)
 {

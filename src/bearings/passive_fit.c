@@ -14,11 +14,6 @@
 
 #define N RHO_PASSIVE_STATES
 
-static float square(float v)
-{
-    return v * v;
-}
-
 /* Normal equations a x = b. */
 struct equations {
     float a[RHO_TRIANGLE(N)], b[N];
@@ -30,11 +25,11 @@ static void add_bearing_equation(const struct rho_passive_search *search, unsign
                                  struct equations *equations)
 {
     /* derivative of the bearing by the position, rad per metre */
-    float range2_m2 = square(nearest->offset.x_m) + square(nearest->offset.y_m);
+    float range2_m2 = rho_square(nearest->offset.x_m) + rho_square(nearest->offset.y_m);
     float step = search->step[scan];
     float row_x = -nearest->offset.y_m / range2_m2, row_y = nearest->offset.x_m / range2_m2;
     const float row[N] = {row_x, row_y, step * row_x, step * row_y};
-    float weight = 1.0f / (square(nearest->sigma_rad) + square(EXACT_M) / range2_m2);
+    float weight = 1.0f / (rho_square(nearest->sigma_rad) + rho_square(EXACT_M) / range2_m2);
     float residual = rho_passive_residual(nearest) * nearest->sigma_rad;
     for (int i = 0; i < N; i++) {
         for (int j = 0; j <= i; j++) {
@@ -46,7 +41,7 @@ static void add_bearing_equation(const struct rho_passive_search *search, unsign
 
 static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas)
 {
-    return square(rho_passive_residual(nearest)) < square(gate_sigmas);
+    return rho_square(rho_passive_residual(nearest)) < rho_square(gate_sigmas);
 }
 
 /*
@@ -71,7 +66,7 @@ static struct equations equations_of_bearings(const struct rho_passive_search *s
         }
     }
     for (int i = 0; i < N; i++) {
-        float weight = i < RHO_PASSIVE_DX ? 1.0f / square(range_m) : 1.0f / square(way_m);
+        float weight = i < RHO_PASSIVE_DX ? 1.0f / rho_square(range_m) : 1.0f / rho_square(way_m);
         equations.a[RHO_AT(i, i)] += weight;
         equations.b[i] -= i < RHO_PASSIVE_DX ? 0.0f : weight * state_m[i];
     }
@@ -154,7 +149,7 @@ static int is_track(const struct rho_passive_search *search, const float state_m
     float n = score->hits > N ? (float)(score->hits - N) : 1.0f, part = 2.0f / (9.0f * n);
     float root = 1.0f - part + 3.09f * rho_sqrt(part);
     float most_m = passive->config.v_max_mps * search->half_s;
-    float way2_m2 = square(state_m[RHO_PASSIVE_DX]) + square(state_m[RHO_PASSIVE_DY]);
+    float way2_m2 = rho_square(state_m[RHO_PASSIVE_DX]) + rho_square(state_m[RHO_PASSIVE_DY]);
     /* two sensors with two bearings each: one sensor measures neither range nor speed */
     unsigned sensors = 0;
     for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
@@ -165,7 +160,7 @@ static int is_track(const struct rho_passive_search *search, const float state_m
         sensors += bearings >= 2;
     }
     return has_hits && score->score_nat > 0.0f && score->chi2 < n * root * root * root &&
-           !(way2_m2 >= square(most_m)) && sensors >= 2;
+           !(way2_m2 >= rho_square(most_m)) && sensors >= 2;
 }
 
 /* Log-likelihood ratio of a look in which the state has a bearing with this squared residual. */
@@ -194,7 +189,7 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
                 score.looks_out_of_view = (uint16_t)(score.looks_out_of_view + !is_seen);
                 continue;
             }
-            float chi2 = square(rho_passive_residual(&seen));
+            float chi2 = rho_square(rho_passive_residual(&seen));
             score.hits++;
             score.chi2 += chi2;
             score.score_nat += score_of_hit(search, &seen, chi2);
@@ -231,9 +226,9 @@ float rho_passive_gain_nat(const struct rho_passive_search *search, const float 
     }
     const struct rho_batch_bearing *bearing =
         &search->passive->batch.bearings[scan][sensor][claim - 1u];
-    float chi2 = square(rho_passive_residual(&seen));
+    float chi2 = rho_square(rho_passive_residual(&seen));
     if (bearing->cosine * seen.offset.x_m + bearing->sine * seen.offset.y_m <= 0.0f ||
-        chi2 >= square(BEARING_GATE_SIGMAS)) {
+        chi2 >= rho_square(BEARING_GATE_SIGMAS)) {
         return 0.0f;
     }
     return score_of_hit(search, &seen, chi2) - search->miss_nat;

@@ -7,15 +7,12 @@
  * - passive_fit.c: Gauss-Newton fit, score and covariance of a state
  * - candidate_list.c: the list of candidates for tracks
  * - best_subset.c: the subset of candidates with the highest total score
- * - joint_fit.c: one-to-one assignment of bearings to the chosen tracks, and
- *   their fits
+ * - joint_fit.c: one-to-one assignment of bearings to the chosen tracks, and their fits
  * - passive_prepare.c: geometry, times, likelihood ratios
  * - passive_crossings.c: phase 1: crossings of all pairs of sensors
  * - crossing_votes.c: phase 2: votes, and the lines with the most votes
- * - starts.c: phase 3: constant velocities through pairs of a
- *   line's crossings
- * - final_tracks.c: phases 4 and 5: the best set of candidates, and the
- *   tracks with their margins
+ * - starts.c: phase 3: constant velocities through pairs of a line's crossings
+ * - final_tracks.c: phases 4 and 5: the best set of candidates, the tracks with their margins
  * - swapped_bearings.c: candidates from bearings swapped between two candidates
  * - passive.c: configuration, frames, the sequence of phases of a search
  */
@@ -27,8 +24,7 @@
 
 /*
  * A state is the position at mid-batch (x, y) and the displacement in half the batch (dx, dy), all
- * in metres: the position at scan k is (x, y) + step[k] (dx, dy). The origin is the sensors'
- * centroid.
+ * in metres, from the sensors' centroid: the position at scan k is (x, y) + step[k] (dx, dy).
  */
 enum { RHO_PASSIVE_X, RHO_PASSIVE_Y, RHO_PASSIVE_DX, RHO_PASSIVE_DY, RHO_PASSIVE_STATES };
 
@@ -59,16 +55,10 @@ struct rho_passive_search {
 
 /* Computes the values of *search that follow from the batch: geometry, times, likelihood ratios. */
 void rho_passive_prepare(struct rho_passive_search *search);
-
-/*
- * Sets passive->start_mnat, the score at which false tracks have the allowed rate, from the number
- * of crossings of the first pass.
- */
+/* Sets passive->start_mnat, for the allowed rate of false tracks, by the first pass' crossings. */
 void rho_passive_set_start_score(const struct rho_passive_search *search);
-
 /* Crosses the bearings of all pairs of sensors, scan by scan, into passive->points. */
 void rho_passive_find_crossings(struct rho_passive_search *search);
-
 /* Uncertainty of a crossing: the trace of its covariance. */
 static inline float rho_passive_uncertainty_m2(const struct rho_passive_point *point)
 {
@@ -96,14 +86,12 @@ struct rho_passive_line {
  */
 int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
                                struct rho_passive_line *line);
-
 /*
  * Tries constant velocities through pairs of crossings on the line: those that agree best with the
  * bearings are fitted and offered as candidates.
  */
 void rho_passive_fit_line_pairs(struct rho_passive_search *search,
                                 const struct rho_passive_line *line);
-
 /* Vector from a sensor to the position of a state at the time of a scan. */
 struct rho_passive_offset {
     float x_m, y_m;
@@ -111,7 +99,6 @@ struct rho_passive_offset {
 struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
                                                          unsigned scan, unsigned sensor,
                                                          const float state_m[RHO_PASSIVE_STATES]);
-
 /* A bearing of a look compared with the position of a state. */
 struct rho_passive_match {
     /* index among the bearings of the look, from 0; -1: no bearing within nine sigmas */
@@ -121,33 +108,23 @@ struct rho_passive_match {
     float sigma_rad;
 };
 
-/*
- * Matches a state with the nearest bearing of a look, without claimed bearings if include_claimed
- * is 0.
- */
+/* Matches a state with the nearest bearing of a look; include_claimed 0: an unclaimed one. */
 struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    int include_claimed);
-
-/*
- * Matches a state with the bearing `claim` (index from 1) of a look at any distance; claim 0: no
- * bearing, -1.
- */
+/* Matches a state with bearing `claim` (from 1) of a look at any distance; claim 0: none, -1. */
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    unsigned claim);
-
 /* Measured minus predicted bearing of a match, divided by the bearing's sigma. */
 float rho_passive_residual(const struct rho_passive_match *match);
-
 /*
  * Marks, for each look, the directions within nine sigmas of a bearing, for a quick test. Needed
  * before states are matched with nearest bearings.
  */
 void rho_passive_mark_directions(struct rho_passive_search *search);
-
 /*
  * Agreement of a state with the bearings: sum over all looks of 1 - (residual / 9 sigmas)^2 of the
  * nearest bearing, or 0 beyond nine sigmas. Stops early, with a value of at most `least`, once the
@@ -155,18 +132,13 @@ void rho_passive_mark_directions(struct rho_passive_search *search);
  */
 float rho_passive_agreement(const struct rho_passive_search *search,
                             const float state_m[RHO_PASSIVE_STATES], float least);
-
 /* The bearings that a track claims in one scan: for each sensor an index from 1; 0: no bearing. */
 typedef uint8_t rho_passive_claim[RHO_MAX_PASSIVE_SENSORS];
 typedef const uint8_t rho_passive_const_claim[RHO_MAX_PASSIVE_SENSORS];
 
-/*
- * Fits a state to the nearest bearings: four Gauss-Newton steps, with gates of 8, 5, 3.5 and 3.5
- * sigmas.
- */
+/* Fits a state to the nearest bearings: four Gauss-Newton steps, in gates of 8 to 3.5 sigmas. */
 void rho_passive_fit_nearest(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES], int include_claimed);
-
 /* Improves a state by one Gauss-Newton step towards the claimed bearings. */
 void rho_passive_step_to_claims(const struct rho_passive_search *search,
                                 float state_m[RHO_PASSIVE_STATES], rho_passive_const_claim *claim);
@@ -179,26 +151,18 @@ struct rho_passive_score {
     int is_track; /* hits, chi2, speed, observability and score satisfy the conditions of a track */
 };
 
-/*
- * Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores the state with
- * these claims.
- */
+/* Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores it. */
 struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    int include_claimed, rho_passive_claim *claim);
-
 /* Scores a state with given claims: log-likelihood ratio, chi-square, hits, test of a track. */
 struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_search *search,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    rho_passive_const_claim *claim);
-
-/*
- * Score of a look with the bearing `claim` (from 1) minus the score of a miss; 0 beyond 3.5 sigmas.
- */
+/* Score of a look with bearing `claim` (from 1) minus that of a miss; 0 beyond 3.5 sigmas. */
 float rho_passive_gain_nat(const struct rho_passive_search *search,
                            const float state_m[RHO_PASSIVE_STATES], unsigned scan, unsigned sensor,
                            unsigned claim);
-
 /*
  * Fills the position and velocity at the newest scan of a track, and their covariance, from a state
  * and the track's claims. Returns 0 where the normal equations are singular.
@@ -206,23 +170,19 @@ float rho_passive_gain_nat(const struct rho_passive_search *search,
 int rho_passive_estimate_track(const struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES],
                                struct rho_passive_track *track);
-
 /* Sorts the indices of the candidates by score, best first, into order[]. */
 void rho_passive_rank_candidates(const struct rho_passive *passive,
                                  uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
-
 /*
  * Scores a fitted state, and adds it to the candidates if it passes the tests of a track and has no
  * better duplicate. Returns whether it passes the tests.
  */
 int rho_passive_offer_if_track(struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES]);
-
 /* Number of bearings that two candidates both claim. */
 unsigned rho_passive_count_shared(const struct rho_passive_search *search,
                                   const struct rho_passive_candidate *a,
                                   const struct rho_passive_candidate *b);
-
 /*
  * Offers candidates for targets whose bearings two ghost candidates share: one sensor's bearings of
  * one candidate with another sensor's bearings of the other (swapped_bearings.c).
@@ -234,45 +194,31 @@ struct rho_passive_choice {
     unsigned count; /* number of candidates */
     uint8_t is_in[RHO_MAX_PASSIVE_CANDIDATES];
     uint8_t is_out[RHO_MAX_PASSIVE_CANDIDATES]; /* excluded: must not be added to the choice */
-    /*
-     * score of each candidate less the penalties for bearings that it shares with chosen candidates
-     */
+    /* score of each candidate less the penalties for bearings shared with chosen ones */
     float gain_nat[RHO_MAX_PASSIVE_CANDIDATES];
     float total_nat;
 };
 
 /* Finds the choice of candidates with the highest total, by greedy search from several starts. */
 void rho_passive_choose(const struct rho_passive_search *search, struct rho_passive_choice *best);
-
 /* Excludes from a choice a candidate and all other candidates of the same target. */
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which);
-
-/*
- * Adds a candidate to a choice (which = count: none), then further candidates while the total
- * grows.
- */
+/* Adds a candidate (which = count: none), then further candidates while the total grows. */
 void rho_passive_add_gaining(struct rho_passive_choice *choice, unsigned which);
-
 /* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);
-
 /* Sets is_claimed of all bearings in `claims` to the given value, 0 or 1. */
 void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,
                              uint8_t is_claimed);
-
 /*
  * Fits the chosen candidates as a set of tracks: bearings are assigned anew, one to one, each track
  * is fitted to its own bearings, and members that fail the tests of a track are dropped.
  */
 void rho_passive_fit_jointly(const struct rho_passive_search *search,
                              const struct rho_passive_choice *choice, struct rho_passive_set *set);
-
 /* Marks the bearings of the best set of candidates as claimed, for the second pass. */
 void rho_passive_claim_best_set(struct rho_passive_search *search);
-
-/*
- * Turns the best set of candidates into the tracks of the search, with margins, best score first.
- */
+/* Turns the best set of candidates into the tracks of the search, with margins, by score. */
 void rho_passive_select_tracks(struct rho_passive_search *search);
 
 #endif

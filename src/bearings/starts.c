@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * starts: phase 3 of the search. Two crossings of a line are a
- * constant-velocity hypothesis; the hypotheses that most bearings agree with are fitted to the
- * bearings.
+ * starts: phase 3 of the search. Two crossings of a line are a constant-velocity hypothesis; those
+ * that most bearings agree with are fitted to the bearings.
  */
 #include "passive_search.h"
 #include "policy.h"

@@ -10,10 +10,7 @@
 #include "passive_search.h"
 #include "policy.h"
 
-/*
- * Claims of the best candidates, copied because offering candidates changes the order of their
- * list.
- */
+/* Claims of the best candidates, copied as offering candidates changes the list's order. */
 struct claims {
     unsigned count;
     uint8_t of[BEST_TRIED][RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * anisotropic_fit: least-squares fit of a straight or turning track to plots that have covariances,
- * heights and range rates of their own; the plot of a scan nearest to the track; and the likelihood
- * of a set of plots.
+ * anisotropic_fit: as isotropic_fit, for straight or turning tracks through plots that have
+ * covariances, heights and range rates of their own.
  */
 #include <float.h>
 #include <string.h>
@@ -48,8 +47,7 @@ int rho_anisotropic_nearest(struct search *search, const struct line_fit *fit,
  * Regression of a track through a set of plots. Position and velocity are the unknowns, and the
  * acceleration of turning targets. Each plot gives an equation for every axis of its noise, and one
  * for its range rate, linearised at the fit of the positions alone. Times count from the middle of
- * the set in units of `unit_s`, positions from the middle plot, so that the unknowns have similar
- * sizes.
+ * the set in units of `unit_s`, positions from the middle plot, to keep the unknowns alike in size.
  */
 struct regression {
     const struct search *search;
@@ -155,10 +153,7 @@ static float acceleration_prior_variance(const struct regression *of)
     return turn_m * turn_m;
 }
 
-/*
- * Solves the normal equations of the set's plots. Returns 0 where the plots do not determine the
- * unknowns.
- */
+/* Solves the normal equations of the set. Returns 0 where they do not determine the unknowns. */
 static int solve_unknowns(struct regression *of)
 {
     rho_search_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
@@ -279,18 +274,13 @@ static unsigned scan_with_widest_span(const struct regression *of)
     return is_ambiguous ? widest : RHO_MAX_SCANS;
 }
 
-/*
- * One range rate against the fit of the positions: innovation, ambiguity span, variance of the
- * innovation, and Kalman gain.
- */
+/* A range rate against the fit of the positions, with the Kalman gain of the fit by it. */
 struct first_rate {
     float error_mps, span_mps, variance;
     float gain[UNKNOWNS_MAX];
 };
 
-/*
- * Sets the innovation of scan m's range rate and its Kalman gain. Returns 0 without a range rate.
- */
+/* Sets the innovation of scan m's range rate and its gain. Returns 0 without a range rate. */
 static int compare_first_rate(const struct regression *of, unsigned m, struct first_rate *first)
 {
     struct equation equation = {.variance = 0.0f};
@@ -313,10 +303,7 @@ static int compare_first_rate(const struct regression *of, unsigned m, struct fi
     return 1;
 }
 
-/*
- * Moves the fit of the positions by the gain times this innovation of a range rate, and solves with
- * all range rates linearised there.
- */
+/* Moves the positions' fit by an innovation, and solves with all range rates linearised there. */
 static int solve_with_alias(struct regression *of, const float *position_fit,
                             const struct first_rate *first, float alias_innovation_mps)
 {
@@ -329,8 +316,7 @@ static int solve_with_alias(struct regression *of, const float *position_fit,
 
 /*
  * The positions alone leave several aliases of the range rates. An alias of one range rate
- * determines those of the others. The fit with the least chi-square is kept, as all aliases are
- * equally likely a priori.
+ * determines those of the others. As all are equally likely, the fit with least chi-square is kept.
  */
 static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
 {
@@ -375,10 +361,7 @@ static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
     return least < FLT_MAX && solve_with_alias(of, places, &first, best_mps);
 }
 
-/*
- * Fits the positions, and then positions and range rates together. Returns 0 where the plots do not
- * determine a track.
- */
+/* Fits positions, then range rates, too. Returns 0 where the plots determine no track. */
 static int run_regression(struct regression *of)
 {
     int rounds = set_up_regression(of);

@@ -147,10 +147,7 @@ static int has_conflict(const struct rho_initiator *initiator, unsigned num_acce
     return 0;
 }
 
-/*
- * Associates a candidate with the plots that better candidates have left, and scores it again.
- * Returns 0 where too few plots are left.
- */
+/* Makes a candidate of the plots that better ones left. Returns 0 where these are too few. */
 static int remake_candidate(struct search *search, struct rho_candidate *candidate)
 {
     struct line_fit fit;

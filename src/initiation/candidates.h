@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * candidates: sets of plots are fitted, associated and scored, and the best ones selected. Private
- * to src/initiation.
- */
+/* candidates: sets of plots are fitted, scored and selected. Private to src/initiation. */
 #ifndef RHOTRACK_CANDIDATES_H
 #define RHOTRACK_CANDIDATES_H
 
@@ -15,10 +12,7 @@ enum { SCORE_MAX_MNAT = 1000000000 };
 int32_t rho_nat_to_mnat(float nat);
 /* Fits a track to a set of plots. Returns 0 where the plots do not determine a track. */
 int rho_plot_set_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit);
-/*
- * Makes the set of the plots nearest to the fitted track, one a scan at most. `variance_factor`
- * widens the gate's variance.
- */
+/* Makes the set of each scan's plot nearest to the fit, widened by variance_factor. */
 void rho_plot_set_associate(struct search *search, const struct line_fit *fit,
                             float variance_factor, struct plot_set *set);
 /*
@@ -37,8 +31,7 @@ int rho_plot_set_score(const struct search *search, const struct plot_set *set,
  * Arithmetic of plot_set.c for isotropic noise (isotropic_fit.c) and for all other plots
  * (anisotropic_fit.c): the fit; the plot of scan m nearest to it, -1 where the gate has none; and
  * *nat, ln of the joint density of a set's plots with position and velocity integrated out, with
- * the residual's chi-square and dimensions. Fit and likelihood return 0 where the plots do not
- * determine a track.
+ * the residual's chi-square and dimensions. Fit and likelihood return 0 where there is no track.
  */
 int rho_isotropic_fit(const struct search *search, const struct plot_set *set,
                       struct line_fit *fit);

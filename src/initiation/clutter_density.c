@@ -24,19 +24,13 @@ float rho_density_area_m2(const struct rho_initiator *initiator)
 
 static unsigned clamp_cell_count(float cells)
 {
-    if (!(cells >= 1.0f)) {
-        return 1;
-    }
-    return cells < (float)RHO_MAX_DENSITY_CELLS ? (unsigned)cells : RHO_MAX_DENSITY_CELLS;
+    const float most = (float)RHO_MAX_DENSITY_CELLS;
+    return cells >= 1.0f ? (unsigned)(cells < most ? cells : most) : 1u;
 }
 
 static unsigned cell_at(float v, float min, float side, unsigned cells)
 {
-    float cell = (v - min) * (float)cells / side;
-    if (!(cell > 0.0f)) {
-        return 0;
-    }
-    return cell < (float)cells ? (unsigned)cell : cells - 1u;
+    return (unsigned)rho_cell_at((v - min) * (float)cells / side, (int)cells);
 }
 
 static float distance_m(float dx_m, float dy_m)
@@ -44,10 +38,7 @@ static float distance_m(float dx_m, float dy_m)
     return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
 }
 
-/*
- * Index of the map's cell at a place. Sets *content_per_m2 to the map's content (m^2, or m rad) per
- * square metre there.
- */
+/* Index of the map's cell at a place. Sets the map's content (m^2, or m rad) a square metre. */
 static unsigned map_cell_at(const struct rho_density_map *map, float x_m, float y_m,
                             float *content_per_m2)
 {
@@ -128,10 +119,7 @@ struct polar_spread {
     struct rho_extent extent;
 };
 
-/*
- * Spread of a radar's plots: the first pass sums ranges and directions; the second, with the mean
- * azimuth known, widens the sector.
- */
+/* Spread of a radar's plots: first ranges and the mean azimuth, then the sector about it. */
 static struct polar_spread polar_spread_of_plots(const struct search *search,
                                                  const struct rho_sensor *radar)
 {
@@ -207,8 +195,7 @@ static int lay_out_polar_map(const struct search *search, const struct rho_senso
 
 /*
  * Lays out the density maps by all plots held, also those that are not counted later. Radars whose
- * clutter is even in range and azimuth have a map each; otherwise all sensors share one map over
- * the area.
+ * clutter is even in range and azimuth have a map each; otherwise all share one over the area.
  */
 static void lay_out_density_maps(struct search *search)
 {
@@ -235,10 +222,7 @@ static void lay_out_density_maps(struct search *search)
     }
 }
 
-/*
- * Number of plots of scan m without a mark of skip_flags. Also counts these plots in the map's
- * cells where `map` is not NULL.
- */
+/* Number of plots of scan m without these marks; counts them in the map's cells, if not NULL. */
 static uint32_t count_plots_of_scan(struct rho_initiator *initiator, unsigned m,
                                     uint16_t skip_flags, struct rho_density_map *map)
 {
@@ -267,8 +251,7 @@ static float mean_cell_count(const struct rho_density_map *map)
 
 /*
  * Weight of the mean density against the count of a cell (empirical Bayes, gamma prior): mean^2 /
- * (variance - mean) over the cells. Poisson counts give the mean all weight; patchy clutter gives
- * the cells weight.
+ * (variance - mean) over the cells: Poisson counts give the mean all weight, patchy clutter less.
  */
 static float weight_of_mean_density(const struct rho_density_map *map)
 {
@@ -377,10 +360,7 @@ void rho_density_begin(struct search *search)
     rho_density_measure(search, RHO_WINDOW_INITIATED, 0.0f);
 }
 
-/*
- * Density of a map's cell with this count of plots, shrunk towards the mean density; per unit of
- * the map's content (m^2 or m rad).
- */
+/* Density of a cell with so many plots, shrunk towards the mean; per unit of the map's content. */
 static float density_of_cell_count(const struct rho_density_map *map, float count)
 {
     float prior = map->prior_plots;

@@ -30,10 +30,7 @@ static int are_alike(const struct place_class *a, const struct place_class *b)
            are_logarithms_close(a->log_range_rate, b->log_range_rate);
 }
 
-/*
- * Samples evenly spaced held plots into at most CLASSES_MAX classes of clutter and noise, each with
- * its share of the area.
- */
+/* Samples evenly spaced held plots into classes of clutter and noise, with shares of the area. */
 static void sample_place_classes(struct false_tracks *model)
 {
     const struct search *search = model->search;
@@ -162,10 +159,7 @@ static float log_fisher_determinant(const struct false_tracks *model,
     float cross = rho_log(spread_s2) - 4.0f * place->log_cross;
     float along = rho_log(spread_s2) - 4.0f * place->log_range;
     if (model->has_range_rate) {
-        /*
-         * determinant along the line of sight: hits / range^2 (S / range^2 + hits / rate^2), S =
-         * spread / hits
-         */
+        /* along the sight: hits / range^2 (S / range^2 + hits / rate^2), S = spread / hits */
         float slope = rho_log(spread_s2 / hits) - 2.0f * place->log_range;
         float rate = rho_log(hits) - 2.0f * place->log_range_rate;
         float larger = slope > rate ? slope : rate, smaller = slope > rate ? rate : slope;
@@ -193,10 +187,7 @@ static float log_widened_sigma(float log_sigma_m, float bend_m2)
     return 0.5f * rho_log(rho_exp(2.0f * log_sigma_m) + bend_m2);
 }
 
-/*
- * Share of mode j in the residual of a track bent by process noise, as of a free beam; mode 1 is
- * the longest bow.
- */
+/* Share of mode j in the residual of a bent track, as of a free beam; mode 1: the longest bow. */
 static float bend_share_of_mode(unsigned j)
 {
     const float waves = 3.0f / (float)(2u * j + 1u);
@@ -271,10 +262,7 @@ static struct pattern_score score_pattern(const struct false_tracks *model,
 
 void rho_false_tracks_model(const struct search *search, struct false_tracks *model)
 {
-    /*
-     * where only some scans measure heights or range rates, false tracks are assumed to need
-     * neither: an upper bound
-     */
+    /* heights or range rates that only some scans measure are left out: an upper bound */
     uint32_t measures = ~0u;
     const unsigned num_scans = search->num_scans;
     for (unsigned m = 0; m < num_scans; m++) {

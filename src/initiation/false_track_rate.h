@@ -29,10 +29,7 @@ struct place_class {
     float share; /* share of the area that places of the class have */
 };
 
-/*
- * A pattern: sets with the same number of hits, the first one in the same scan, the last one in the
- * newest.
- */
+/* A pattern: sets of so many hits, the first one in the same scan, the last in the newest. */
 struct pattern {
     uint16_t first, hits;
     float log_choices; /* ln of the number of choices of the scans between */
@@ -44,10 +41,7 @@ struct pattern {
 
 /* Score and weight of a pattern in one class of places. */
 struct pattern_score {
-    /*
-     * expected sets for a margin of 1 nat: births, hits and misses, choices of scans and e^-c, over
-     * Gamma(k + 1)
-     */
+    /* expected sets for a margin of 1 nat: births, hits, misses, choices, e^-c over Gamma(k + 1) */
     float weight;
     float best_nat; /* c: score of a perfect fit */
 };
@@ -56,9 +50,7 @@ struct pattern_score {
 struct false_tracks {
     const struct search *search;
     int has_z, has_range_rate;
-    /*
-     * ln of the number of aliases of a range rate, mean over the scans; 0 where none is ambiguous
-     */
+    /* ln of the number of aliases of a range rate, mean over the scans; 0: none is ambiguous */
     float log_aliases;
     /* by first scan of a track: variance by which process noise bends it, summed over its scans */
     float bend_m2[RHO_MAX_SCANS];
@@ -71,33 +63,24 @@ struct false_tracks {
 
 /* Fills the model for the window of a search. */
 void rho_false_tracks_model(const struct search *search, struct false_tracks *model);
-
 /*
  * Expected number of false tracks of one search whose score reaches score_nat at once, and which
  * had not reached start_nat before. Counting ends at `stop_at_sum`; FLT_MAX counts all.
  */
 float rho_false_tracks_above(const struct false_tracks *model, float score_nat, float start_nat,
                              float stop_at_sum);
-
 /* Share of the false tracks started at start_nat that are still in the area at the next scan. */
 float rho_false_tracks_staying(const struct false_tracks *model, float start_nat);
-
-/*
- * Score that one more perfect hit adds to a tentative track, in the class of places where that is
- * least.
- */
+/* Score that one more perfect hit adds to a tentative track, least of all classes of places. */
 float rho_false_tracks_least_gain(const struct false_tracks *model);
-
 /*
  * Fewest hits, at least the model's least_hits, with which sets from scan `first` to the newest
  * reach start_nat in any class; N + 1 where none do.
  */
 unsigned rho_false_tracks_least_hits(const struct false_tracks *model, unsigned first,
                                      float start_nat);
-
 /* Clutter plots within the noise of a plot, in the class of places with the fewest; at most 1. */
 float rho_false_tracks_thinnest(const struct false_tracks *model);
-
 /* True where at least half of the targets with the least number of hits reach start_nat. */
 int rho_false_tracks_let_start(const struct false_tracks *model, float start_nat);
 

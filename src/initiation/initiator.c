@@ -118,10 +118,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    /*
-     * the oldest scan is added to the clutter memory before it is overwritten, unless the push will
-     * be refused
-     */
+    /* before the oldest scan is overwritten, unless the push will be refused */
     if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
         !rho_window_continues_newest(&initiator->window, scan, sensor)) {
@@ -130,10 +127,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
         initiator->num_candidates = 0;
-        /*
-         * the thresholds of a revolution do not hold for a sector that changes which quantities it
-         * measures
-         */
+        /* a sector that changes the quantities measured needs thresholds of its own */
         initiator->has_revolution &=
             initiator->window.is_continued && !initiator->window.is_remeasured;
     }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * isotropic_fit: least-squares fit of a straight track to plots with isotropic noise (equal along
- * and across the line of sight); the plot of a scan nearest to the track; and the likelihood of a
- * set of plots.
+ * isotropic_fit: least-squares fit of a straight track to plots with isotropic noise, equal along
+ * and across the line of sight; the plot nearest to the track; and the likelihood of a set.
  */
 #include "candidates.h"
 #include "rhotrack/detail/approx.h"
@@ -10,8 +9,7 @@
 
 static float plot_variance_m2(const struct rho_window_plot *plot)
 {
-    float sigma_m = rho_window_larger_sigma_m(plot);
-    return sigma_m * sigma_m;
+    return rho_square(rho_window_larger_sigma_m(plot));
 }
 
 /* Weighted moments of a set's plots about their mean, so that no large numbers are subtracted. */
@@ -82,10 +80,7 @@ int rho_isotropic_nearest(struct search *search, const struct line_fit *fit, flo
     return rho_window_nearest_isotropic(scan, &query, &search->initiator->work.window);
 }
 
-/*
- * Terms of the likelihood of a straight line through a set of plots; V is the covariance of the
- * plots' noise on one axis.
- */
+/* Likelihood terms of a straight line; V: covariance of the plots' noise on one axis. */
 struct likelihood_terms {
     float log_det_noise;  /* ln det V */
     float log_det_fisher; /* ln det A^T V^-1 A, A the line's design matrix */
@@ -119,10 +114,7 @@ static float residual_chi2(unsigned n, const float *one, const float *t, const f
     return chi2;
 }
 
-/*
- * Columns of the regression of a straight line: a row for each plot of the set, about the means of
- * time and place.
- */
+/* Columns of a line's regression: a row for each plot, about the means of time and place. */
 struct columns {
     float one[RHO_MAX_SCANS], t[RHO_MAX_SCANS], x[RHO_MAX_SCANS], y[RHO_MAX_SCANS];
     /* V: covariance of the plots' noise and of process noise */

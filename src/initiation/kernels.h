@@ -21,10 +21,7 @@ struct voter {
 struct span {
     uint8_t a, b;
     uint8_t misses_max; /* scans between a and b that need not vote, by M */
-    /*
-     * scans between that need not vote where clutter is not thin; below 0: no kernel of the span
-     * can start a track there
-     */
+    /* scans between that need no vote where clutter is not thin; below 0: no kernel can start */
     int8_t misses_amid;
     const struct rho_window_scan *scan_a, *scan_b;
     float gap_s; /* time from scan a to scan b */
@@ -48,19 +45,13 @@ struct ending {
     struct rho_window_plot_noise noise; /* covariance of the plot; not set with isotropic noise */
 };
 
-/*
- * Number of scans between that need not vote for kernels of the span with this last plot; below 0:
- * the span has no kernels.
- */
+/* Scans between that need no vote for kernels with this last plot; below 0: no kernels. */
 static inline int rho_span_misses_max(const struct span *span, const struct ending *ending)
 {
     return !HAS_SPAN_HITS || ending->is_clear ? (int)span->misses_max : (int)span->misses_amid;
 }
 
-/*
- * The vote of a kernel nearest to its end: plot `index` of the scan `gap` scans before the end. gap
- * 0: not prescribed.
- */
+/* A kernel's last vote: plot `index`, `gap` scans before the end. gap 0: not prescribed. */
 struct first_vote {
     unsigned gap, index;
 };

@@ -22,9 +22,7 @@ static float plot_time_spread_s(const struct rho_window_scan *scan)
     return scan->offset_max_s - scan->offset_min_s;
 }
 
-/*
- * Largest variance, by the noise of both ends, of a place interpolated at this fraction of a span.
- */
+/* Largest variance, by the noise of both ends, of a place at this fraction of a span. */
 static float interpolated_variance_m2(const struct span *span, float fraction)
 {
     float from_m = (1.0f - fraction) * span->scan_a->sigma_max_m,
@@ -166,10 +164,7 @@ static unsigned count_plots_under_box(struct search *search, const struct rho_wi
     return count;
 }
 
-/*
- * Longest distance that a target may have travelled between scan m and the kernels' last plot,
- * without noise.
- */
+/* Longest travel of a target from scan m to the kernels' last plot, without noise. */
 static float target_travel_max_m(const struct search *search, const struct ending *ending,
                                  unsigned b, unsigned m)
 {
@@ -179,10 +174,7 @@ static float target_travel_max_m(const struct search *search, const struct endin
     return most_s > 0.0f ? search->initiator->config.v_max_mps * most_s : 0.0f;
 }
 
-/*
- * Makes candidates of the kernels from plot i of scan a for which enough scans vote: several where
- * a range rate is ambiguous.
- */
+/* Makes candidates of the kernels from plot i: several where a range rate is ambiguous. */
 static void add_candidates_of_pair(struct search *search, const struct span *span,
                                    const struct ending *ending, const struct first_vote *first,
                                    unsigned i)
@@ -218,10 +210,7 @@ static int try_pairs(struct search *search, const struct span *span, const struc
     return 1;
 }
 
-/*
- * Values for extending lines from the last plot of kernels, through any third plot, back to an
- * earlier scan.
- */
+/* Values for lines from the kernels' last plot, through any third plot, to an earlier scan. */
 struct extrapolation {
     float begin_s; /* time from the scan's first plot to the kernels' last plot */
     float far_m;   /* most that a target travels in that time, noise included */
@@ -310,10 +299,7 @@ static uint32_t try_first_plots(struct search *search, const struct span *span,
     return passed;
 }
 
-/*
- * True where the scan before the third plot's has a plot that may vote for kernels with this third
- * plot. Adds the work to *passed.
- */
+/* True where the scan before the third plot's may vote, too. Adds the work to *passed. */
 static int has_vote_before_third(const struct rho_window_scan *scan, const struct ending *ending,
                                  const struct third *third, const struct extrapolation *to_scan,
                                  float own_m, uint32_t *passed)
@@ -437,8 +423,7 @@ static int try_third_plots(struct search *search, const struct span_list *list,
 
 /*
  * True where enumeration by third plots compares fewer plots than by pairs: where plots lie far
- * apart against their noise. counts[gap]: plots in the last `gap` scans that a target in the last
- * plot may have come from.
+ * apart against their noise. counts[gap]: as in rho_kernels_try_ending.
  */
 static int are_third_plots_cheaper(struct search *search, const struct span *span,
                                    const struct ending *ending, const unsigned *counts)
@@ -468,10 +453,7 @@ static int are_third_plots_cheaper(struct search *search, const struct span *spa
     return by_votes < (float)pairs * (LOOKUP_PLOTS + LOOKUPS_OF_PAIR * lookup);
 }
 
-/*
- * Where the box has many rows of bins all plots of these rows count, as their number is known at
- * once.
- */
+/* Where the box has many rows of bins all plots of these rows count, which costs no more. */
 unsigned rho_kernels_count_near(struct search *search, const struct span_list *list, unsigned j)
 {
     const struct span *widest = &list->spans[0];
@@ -511,10 +493,7 @@ int rho_kernels_try_ending(struct search *search, const struct span_list *list, 
     rho_vote_gates_of_ending(search, far_m + widest->slack_m + widest->voters[0].gate_radius_m,
                              &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
-    /*
-     * where clutter is thinner than at all sampled places, sets may start tracks with fewer hits
-     * than their span needs elsewhere
-     */
+    /* where clutter is thinner than at all sampled places, sets with fewer hits may start */
     ending.is_clear = !HAS_SPAN_HITS || !list->has_span_hits ||
                       rho_density_mean_at(initiator, plot->x_m, plot->y_m) *
                               rho_window_decode_sigma(plot->sigma_range) *

@@ -27,20 +27,12 @@ struct kernel {
     struct rho_window_place place;
 };
 
-/*
- * Aliases of an ambiguous range rate: its error is seen.error_mps + i span_mps, i from first to
- * last.
- */
+/* Aliases of a range rate: its error is seen.error_mps + i span_mps, i from first to last. */
 struct aliases {
     struct rho_window_range_rate seen;
     float span_mps;
     int first, last;
 };
-
-static float squared(float v)
-{
-    return v * v;
-}
 
 static int is_range_rate_in_gate(const struct rho_window_scan *scan,
                                  const struct rho_window_plot *plot,
@@ -60,8 +52,8 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
     struct rho_window_place *place = &kernel->place;
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     if (rho_search_is_isotropic(search)) {
-        kernel->from_m2 = squared(rho_window_larger_sigma_m(kernel->from));
-        kernel->to_m2 = squared(rho_window_larger_sigma_m(kernel->to));
+        kernel->from_m2 = rho_square(rho_window_larger_sigma_m(kernel->from));
+        kernel->to_m2 = rho_square(rho_window_larger_sigma_m(kernel->to));
         kernel->query = (struct rho_window_query){
             .vx_mps = kernel->dx_m / kernel->duration_s,
             .vy_mps = kernel->dy_m / kernel->duration_s,
@@ -84,7 +76,7 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
     if (!search->has_more) {
         return 1;
     }
-    float turned = squared(0.5f * search->turn_mps2 * kernel->duration_s), over_mps = 0.0f;
+    float turned = rho_square(0.5f * search->turn_mps2 * kernel->duration_s), over_mps = 0.0f;
     place->velocity_noise = (struct rho_window_plot_noise){
         (a->xx_m2 + b->xx_m2) * per_s2 + turned, (a->xy_m2 + b->xy_m2) * per_s2,
         (a->yy_m2 + b->yy_m2) * per_s2 + turned, (a->zz_m2 + b->zz_m2) * per_s2};
@@ -99,10 +91,7 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
            is_range_rate_in_gate(span->scan_b, kernel->to, place);
 }
 
-/*
- * Index of the plot of scan m nearest to the kernel's predicted place, in the gate of the noise of
- * all three plots; -1: none.
- */
+/* Index of scan m's plot nearest to the kernel, in the gate of all three plots' noise; or -1. */
 static int find_vote(struct search *search, const struct span *span, unsigned m,
                      struct kernel *kernel)
 {
@@ -203,10 +192,7 @@ static int limited_whole_spans(float spans)
     return spans < (float)ALIASES_MAX ? (int)spans : ALIASES_MAX;
 }
 
-/*
- * Lists the aliases of a plot's range rate that agree with the velocity of a place. Returns 0 where
- * the range rate is not ambiguous.
- */
+/* Lists the aliases that agree with a place's velocity. Returns 0 where there is no ambiguity. */
 static int list_aliases(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
                         const struct rho_window_place *place, struct aliases *aliases)
 {

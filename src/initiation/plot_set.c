@@ -88,10 +88,7 @@ int rho_plot_set_score(const struct search *search, const struct plot_set *set,
                        const struct line_fit *fit, struct set_score *score)
 {
     float nat, hits = 0.0f;
-    /*
-     * a track may have been born within the window: in a search after every scan, misses count from
-     * the first hit on
-     */
+    /* after every scan, misses count from the first hit on: the track may be born there */
     int is_born = search->kind == RHO_SEARCH_BATCH;
     if (!(rho_search_is_isotropic(search) ? rho_isotropic_likelihood(search, set, score, &nat)
                                           : rho_anisotropic_likelihood(search, set, score, &nat))) {

@@ -102,11 +102,14 @@
 #define NARROW_SHARE 0.25f
 /*
  * Costs in plots compared, for the choice between the two ways of enumeration: the test of a first
- * plot; a look-up, and as much for a kernel; look-ups of a pair, on average; and the share of the
- * plots in a gate's square that are in the gate. Half or twice: the dearer way is taken more often.
+ * plot; a look-up, and as much for a kernel. Half or twice: the dearer way is taken more often.
  */
 #define FIRST_PLOTS 0.5f
 #define LOOKUP_PLOTS 3.0f
+/*
+ * For the same choice: look-ups of a pair, on average, and the share of the plots in a gate's
+ * square that are in the gate. Half or twice: the dearer way is taken more often.
+ */
 #define LOOKUPS_OF_PAIR 2.0f
 #define SHARE_IN_GATE 0.5f
 /*

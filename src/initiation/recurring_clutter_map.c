@@ -13,9 +13,7 @@
 
 /* Prior probabilities that an echo returns, by its class of hits; half as large after misses. */
 static const float prior_probability[RHO_ECHO_HIT_CLASSES] = {0.004f, 0.04f, 0.12f, 0.2f};
-/*
- * Scans of an echo's sensor, by the echo's class of hits, after which an unseen echo is forgotten.
- */
+/* Scans of an echo's sensor, by class of hits, after which an unseen echo is forgotten. */
 static const uint8_t scans_kept[RHO_ECHO_HIT_CLASSES] = {12, 16, 30, 100};
 
 /* Ranks of echoes when places are freed; hits beyond which an echo ranks no better. */
@@ -71,9 +69,7 @@ void rho_clutter_map_count_return(struct rho_clutter_map *map, const struct rho_
     map->tables[1][ALL_REGIONS].returns[c][g] += echo->weight;
 }
 
-/*
- * Takes the returns of a target's plots out of a class of hits, at most as many as all blocks have.
- */
+/* Takes a target's returns out of a class of hits, at most as many as all blocks have. */
 static void remove_returns_of_class(struct rho_clutter_map *map, unsigned region, unsigned c,
                                     float returns)
 {
@@ -154,9 +150,7 @@ float rho_clutter_map_azimuth_turns(const struct echo_view *view)
 /* Index of a region on one axis: azimuth in turns, or root of the range over the maximum range. */
 static unsigned region_index_on_axis(float share)
 {
-    const float cell = share * (float)RHO_ECHO_REGIONS;
-    return cell > 0.0f ? cell < (float)RHO_ECHO_REGIONS ? (unsigned)cell : RHO_ECHO_REGIONS - 1u
-                       : 0;
+    return (unsigned)rho_cell_at(share * (float)RHO_ECHO_REGIONS, RHO_ECHO_REGIONS);
 }
 
 uint8_t rho_clutter_map_region_at(const struct rho_sensor *sensor, float range_max_m, float x_m,
@@ -240,10 +234,7 @@ void rho_clutter_map_start_echo(const struct rho_clutter_map *map, struct rho_ec
     };
 }
 
-/*
- * Rank of an echo when places are freed, by its misses for its hits: higher ranks are dropped
- * first.
- */
+/* Rank of an echo when places are freed, by misses for hits: higher ranks are dropped first. */
 static unsigned echo_drop_rank(const struct rho_echo *echo, int64_t time_us)
 {
     const unsigned hits = echo->hits < HITS_RANKED ? echo->hits : HITS_RANKED;
@@ -318,10 +309,7 @@ enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t senso
                 .across = {sigma_cross_m * sigma_cross_m, 0.0f, 0.0f},
                 .plot = -1,
                 .hits = hits,
-                /*
-                 * UINT8_MAX: the region is found at the first look, as the sensor may not be known
-                 * yet
-                 */
+                /* found at the first look, as the sensor may not be known yet */
                 .region = UINT8_MAX,
             };
             return RHO_OK;

@@ -32,10 +32,7 @@ enum {
 /* Most aliases of an ambiguous range rate, either way: more carry little information. */
 enum { ALIASES_MAX = 8 };
 
-/*
- * True where long spans may need more votes than M. Builds that hold few plots leave that out, as
- * it saves little there.
- */
+/* True where long spans may need more votes than M: not in small builds, where it saves little. */
 #define HAS_SPAN_HITS (RHO_MAX_PLOTS > 64)
 
 struct search {
@@ -58,16 +55,12 @@ struct search {
     int has_more;                /* a scan measures heights or range rates */
     float gate_chi2;             /* limit of the NIS in the widest gate */
     /*
-     * bounds of the noise of a single radar, 0 where not known: each plot's sigma is at most the
-     * larger of sigma_near_m and sigma_per_m times its range; sigma_least_m is the smallest of the
-     * scans' largest sigmas
+     * a single radar's noise, 0 where not known: a plot's sigma is at most sigma_near_m or, if
+     * larger, sigma_per_m times its range; sigma_least_m: smallest of the scans' largest sigmas
      */
     float sigma_near_m, sigma_per_m, sigma_least_m;
     int has_one_noise; /* every plot has isotropic noise, and no height or range rate */
-    /*
-     * noise is isotropic and sets are straight; ask rho_search_is_isotropic, which
-     * knows the build
-     */
+    /* isotropic noise, straight sets; ask rho_search_is_isotropic, which knows the build */
     int is_isotropic;
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     /* by scan: ln of the clutter density of its sensor over the mean of all sensors */
@@ -115,10 +108,7 @@ struct set_score {
     unsigned dimensions; /* degrees of freedom of the residual */
 };
 
-/*
- * A set of plots, one a scan at most, that may be a track: bits and indices by age order of the
- * scans.
- */
+/* Plots, one a scan at most, that may be a track: bits and indices by age order of the scans. */
 struct plot_set {
     unsigned mask;
     unsigned hits;

@@ -19,9 +19,7 @@ struct pass {
     struct rho_initiator_resume next;
 };
 
-/*
- * Cost class by the number of near plots: the number itself below 8, then octaves and half octaves.
- */
+/* Cost class by the number of near plots: below 8 itself, then octaves and half octaves. */
 static unsigned cost_class_by_near_plots(unsigned near)
 {
     unsigned class = near < 8u ? near : 8u;
@@ -69,10 +67,7 @@ static void try_cost_class(struct search *search, const struct span_list *list, 
     search->limit_units = end_units;
 }
 
-/*
- * Tries all kernels that end in scan b, the cheapest plots first, beginning at the class and plot
- * of `begin`.
- */
+/* Tries all kernels that end in scan b, the cheapest plots first, from `begin` on. */
 static void try_kernels_ending_in_scan(struct search *search, unsigned b, uint32_t units,
                                        const struct rho_initiator_resume *begin)
 {
@@ -124,10 +119,7 @@ void rho_kernels_try_straight(struct search *search)
     search->limit_units = work_max > 0 ? end_units : UINT32_MAX;
 }
 
-/*
- * At most a share of the work on straight targets is taken. Plots that this pass leaves out do not
- * count as not tried.
- */
+/* Takes a share of the work on straight targets; plots left out do not count as not tried. */
 void rho_kernels_try_turning(struct search *search)
 {
     static const struct rho_initiator_resume cheapest = {0, 0};

@@ -134,9 +134,7 @@ static int clutter_confirms_more_than(const struct climb_table *climbs,
     return sum > wanted;
 }
 
-/*
- * The lowest start threshold at which no more than FALSE_STARTS_MAX sets of clutter start a track.
- */
+/* The lowest start threshold that lets FALSE_STARTS_MAX sets of clutter start, or fewer. */
 static float find_start_threshold(const struct false_tracks *model)
 {
     float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
@@ -258,8 +256,7 @@ void rho_thresholds_set(struct search *search)
 /*
  * ln of the prior of a turn. The expected sets of clutter that reach the score s are at most S
  * TURNING_SHARE / 2 e^-s, with S scans in which they may begin, as the score is a likelihood ratio.
- * Where the thresholds would let more than TURNING_SHARE of the wanted false tracks through, the
- * prior is lowered.
+ * Where more than TURNING_SHARE of the wanted false tracks would pass, the prior is lowered.
  */
 float rho_thresholds_log_turn(const struct search *search)
 {

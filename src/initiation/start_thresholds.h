@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * start_thresholds: the votes and scores from which on sets of plots start and confirm tracks.
- * Private to src/initiation.
- */
+/* start_thresholds: votes and scores that start and confirm tracks. Private to src/initiation. */
 #ifndef RHOTRACK_START_THRESHOLDS_H
 #define RHOTRACK_START_THRESHOLDS_H
 

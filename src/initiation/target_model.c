@@ -20,9 +20,7 @@ static float displacement_s2(const struct search *search, unsigned l, unsigned m
     return interval_s * (0.5f * interval_s + search->time_s[m] - search->time_s[l + 1]);
 }
 
-/*
- * The diagonal of H K H, K the covariance of process noise, H the projection off straight lines.
- */
+/* The diagonal of H K H, K the covariance of process noise, H the projection off lines. */
 float rho_target_bend_m2(const struct search *search, unsigned first, float *sum_m2)
 {
     unsigned end = search->num_scans;

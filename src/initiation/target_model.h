@@ -19,10 +19,7 @@ void rho_target_model_set(struct search *search);
  * on; *sum_m2: the sum over these scans.
  */
 float rho_target_bend_m2(const struct search *search, unsigned first, float *sum_m2);
-/*
- * Variance by process noise of the place in scan m about the line between the places in scans a and
- * b.
- */
+/* Variance by process noise of the place in scan m about the line from scan a to scan b. */
 float rho_target_off_line_m2(const struct search *search, unsigned a, unsigned m, unsigned b);
 /*
  * ln of the volume of heights and range rates over which clutter and births are spread, apart from

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * vote_gates: narrows the gates of votes for a kernel where the noise of a radar's plots
- * grows with range.
- */
+/* vote_gates: narrows the gates of votes where the noise of a radar's plots grows with range. */
 #include "kernels.h"
 #include "rhotrack/detail/approx.h"
 
@@ -54,9 +51,8 @@ void rho_vote_gates_bound(struct search *search)
 }
 
 /*
- * The sine of the angle between the plots' lines of sight and that of the last plot is at most
- * far_m over their range, so that no more than sigma_per_m far_m of their noise across lies along
- * the latter.
+ * The sine of the angle between a plot's line of sight and the last plot's is at most far_m over
+ * its range, so that at most sigma_per_m far_m of its noise across lies along the latter.
  */
 void rho_vote_gates_of_ending(const struct search *search, float far_m, struct ending *ending)
 {

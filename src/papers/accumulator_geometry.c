@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accumulator_geometry: geometry of the plane (rho, theta): number of cells, values at their
- * centres, and the cell of each point in a row of theta. The loops over points are the hot loops of
- * each row.
+ * accumulator_geometry: the plane (rho, theta): number of cells, values at their centres, and the
+ * cell of each point in a row of theta, whose loops over points are hot.
  */
 #include "accumulator_search.h"
 #include "rhotrack/detail/angle.h"

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * accumulator_peaks: the list of the best peaks, kept in a heap, and
- * suppression of peaks near a better one.
- */
+/* accumulator_peaks: a heap of the best peaks, and suppression of peaks near a better one. */
 #include "rhotrack/detail/accumulator.h"
 
 #include <string.h>
@@ -20,10 +17,7 @@ static int is_better_peak(const struct rho_accumulator_peak *a,
                                           : a->rho_cell < b->rho_cell;
 }
 
-/*
- * Moves the peak at `place` of a heap of n peaks down, until all peaks below it are better. The
- * worst peak is at the top.
- */
+/* Moves a peak down a heap of n peaks, the worst at the top, until all below are better. */
 static void sink_peak(struct rho_accumulator_peak *heap, uint32_t n, uint32_t place)
 {
     struct rho_accumulator_peak peak = heap[place];
@@ -94,9 +88,8 @@ void rho_peak_list_sort(struct rho_peak_list *list)
 }
 
 /*
- * Kept peaks, hashed by blocks of the plane: two peaks in one block are always near each other,
- * hence a block has one kept peak at most, and kept peaks near a cell are in its block or the eight
- * blocks around it.
+ * Kept peaks, hashed by blocks of the plane: two peaks in one block are always near each other, so
+ * a block has one kept peak at most; those near a cell are in its block or the eight around it.
  */
 struct kept {
     struct rho_accumulator_peak *peaks;

@@ -163,10 +163,7 @@ static void search_rows(struct prune *prune, struct interval of)
     }
 }
 
-/*
- * Searches an interval depth-first by halving it. Returns the number of points that the whole
- * interval keeps.
- */
+/* Searches an interval by halving, depth first. Returns the number of points that it keeps. */
 static unsigned search_interval(struct prune *prune, struct interval whole)
 {
     struct interval stack[HALVINGS + 2];

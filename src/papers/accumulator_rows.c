@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * accumulator_rows: votes of the points in each row of theta, and the peaks of the
- * row.
- */
+/* accumulator_rows: votes of the points in each row of theta, and the peaks of the row. */
 #include <string.h>
 
 #include "accumulator_search.h"
@@ -28,6 +25,9 @@ static void add_peak(struct rho_accumulator_pass *pass, unsigned cell, unsigned 
                                         .mask = pass->counts_points ? 0u : mask};
     rho_peak_list_offer(&pass->list, peak);
 }
+
+/* Calls a function of row_votes.h for the width of the pass' cells. */
+#define BY_WIDTH(f, ...) (pass->is_narrow ? f##_narrow(__VA_ARGS__) : f##_wide(__VA_ARGS__))
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
@@ -84,10 +84,8 @@ static void vote_in_dense_row(const struct rho_accumulator_pass *pass, void *row
     void *apart = pass->accumulator->room.scan;
     unsigned num_cells = pass->accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
     int is_crowded = n * CROWDED > num_cells;
-    if (pass->counts_points && pass->is_narrow) {
-        vote_points_narrow(row, cells, n);
-    } else if (pass->counts_points) {
-        vote_points_wide(row, cells, n);
+    if (pass->counts_points) {
+        BY_WIDTH(vote_points, row, cells, n);
     } else if (pass->is_narrow && is_crowded) {
         vote_scan_via_scratch_narrow(row, apart, num_cells, cells, n, (uint8_t)(1u << scan));
     } else if (pass->is_narrow) {
@@ -125,9 +123,7 @@ void rho_accumulator_fill_kept(struct rho_accumulator_pass *pass, unsigned slot,
     rho_accumulator_clear_row(pass, slot);
     rho_accumulator_project(accumulator->room.few.x_m, accumulator->room.few.y_m, num_kept,
                             rho_accumulator_projection(accumulator, theta_cell), cells);
-    unsigned num_reached =
-        pass->is_narrow ? vote_kept_reaching_narrow(pass, row, cells, bits, num_kept, reached)
-                        : vote_kept_reaching_wide(pass, row, cells, bits, num_kept, reached);
+    unsigned num_reached = BY_WIDTH(vote_kept_reaching, pass, row, cells, bits, num_kept, reached);
     accumulator->num_touched[slot] = (uint16_t)num_kept;
     accumulator->num_reached[slot] = (uint16_t)num_reached;
 }
@@ -175,11 +171,7 @@ void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, 
         return;
     }
     pass->votes = votes; /* a reversed row is filled a second time, and its votes count once */
-    if (pass->is_narrow) {
-        reverse_row_narrow(row, num_cells);
-    } else {
-        reverse_row_wide(row, num_cells);
-    }
+    BY_WIDTH(reverse_row, row, num_cells);
     for (unsigned i = 0; pass->is_sparse && i < pass->num_points; i++) {
         cells[i] = (int32_t)num_cells + 1 - cells[i];
     }
@@ -195,16 +187,11 @@ void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned 
     pass->middle_theta_cell = theta_cell;
     pass->above_is_first = theta_cell > 0;
     pass->below_is_first = theta_cell + 1u == accumulator->theta_cells;
-    if (pass->is_sparse && pass->is_narrow) {
-        find_peaks_in_reached_narrow(pass, accumulator->reached[slot],
-                                     accumulator->num_reached[slot]);
-    } else if (pass->is_sparse) {
-        find_peaks_in_reached_wide(pass, accumulator->reached[slot],
-                                   accumulator->num_reached[slot]);
-    } else if (pass->is_narrow) {
-        find_dense_row_peaks_narrow(pass);
+    if (pass->is_sparse) {
+        BY_WIDTH(find_peaks_in_reached, pass, accumulator->reached[slot],
+                 accumulator->num_reached[slot]);
     } else {
-        find_dense_row_peaks_wide(pass);
+        BY_WIDTH(find_dense_row_peaks, pass);
     }
 }
 

@@ -39,11 +39,9 @@ struct rho_accumulator_projection {
 
 struct rho_accumulator_projection
 rho_accumulator_projection(const struct rho_accumulator *accumulator, unsigned theta_cell);
-
 /* Computes the cells of rho in which n points vote, for points that all lie within rho_max_m. */
 void rho_accumulator_project(const float *restrict x_m, const float *restrict y_m, unsigned n,
                              struct rho_accumulator_projection place, int32_t *restrict cells);
-
 /*
  * Computes the cells of rho in which n points vote; points beyond rho_max_m get the guard cells 0
  * and `last`. Returns the number of such points.
@@ -51,30 +49,21 @@ void rho_accumulator_project(const float *restrict x_m, const float *restrict y_
 unsigned rho_accumulator_clamp_cells(const float *restrict x_m, const float *restrict y_m,
                                      unsigned n, struct rho_accumulator_projection place,
                                      float last, int32_t *restrict cells);
-
 /*
  * Fills one of the three row slots with the votes of all points in row theta_cell, with rho
  * reversed if the row stands in for a neighbour beyond the ends of theta.
  */
 void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, unsigned theta_cell,
                               int is_rho_reversed);
-
 /* Fills a row slot with the votes of the first num_kept points of room.few only. */
 void rho_accumulator_fill_kept(struct rho_accumulator_pass *pass, unsigned slot,
                                unsigned theta_cell, unsigned num_kept);
-
 /* Clears a sparse row: its touched cells, and its lists of touched and reached cells. */
 void rho_accumulator_clear_row(struct rho_accumulator_pass *pass, unsigned slot);
-
-/*
- * Adds the peaks of row theta_cell to the list; the row is in slot theta_cell % 3, its neighbours
- * are in the other slots.
- */
+/* Lists the peaks of row theta_cell, in slot theta_cell % 3; the other slots: its neighbours. */
 void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned theta_cell);
-
 /* Fills all rows of theta in their order, and lists their peaks. */
 void rho_accumulator_search_rows(struct rho_accumulator_pass *pass);
-
 /* Fills only the rows of theta that can have peaks, and lists their peaks. */
 void rho_accumulator_search_pruned(struct rho_accumulator_pass *pass);
 

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * coarse_votes: votes of points in coarse bins of rho, by which pruning
- * drops points. A template: accumulator_pruning.c includes it twice, with CELL an unsigned
- * type and NAME(f) adding its suffix to f. The bins are a ring: rho values that differ by its whole
- * length share a bin.
+ * coarse_votes: votes of points in coarse bins of rho, by which pruning drops points. A template as
+ * row_votes.h. The bins are a ring: rho values that differ by its whole length share a bin.
  */
 
 static void NAME(vote_in_bins)(const struct rho_accumulator_pass *pass, CELL *restrict votes,
@@ -21,10 +19,7 @@ static void NAME(vote_in_bins)(const struct rho_accumulator_pass *pass, CELL *re
     }
 }
 
-/*
- * Sets are_enough[b] if the points in bins b .. b + 2 number min_votes or more. Returns whether any
- * bin is set.
- */
+/* Sets are_enough[b] where bins b .. b + 2 have min_votes points. Returns whether any is set. */
 static int NAME(mark_triples_by_points)(const CELL *restrict votes, CELL *restrict are_enough,
                                         unsigned num_bins, CELL min_votes)
 {
@@ -53,10 +48,7 @@ static int NAME(mark_triples_by_scans)(const CELL *restrict votes, CELL *restric
     return any;
 }
 
-/*
- * Lists in bins[] the points of room.few that may reach min_votes, by the votes in their bins.
- * Returns their number.
- */
+/* Lists in bins[] the points that may reach min_votes, by their bins. Returns their number. */
 static unsigned NAME(list_kept_points)(struct rho_accumulator_pass *pass, unsigned n,
                                        unsigned num_bins)
 {

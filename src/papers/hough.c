@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hough: configuration of the Hough methods, passes over the rows of theta, thresholds,
- * suppression.
- */
+/* hough: configuration of the methods, passes over rows of theta, thresholds, suppression. */
 #include "rhotrack/hough.h"
 
 #include <string.h>
@@ -196,10 +193,7 @@ static struct rho_hough_rows widened_rows(const struct rho_hough *hough, struct 
     return (struct rho_hough_rows){first < 0 ? first + all : first, rows.count + 2 * by_rows};
 }
 
-/*
- * Slots of a hash table for a number of entries: at least twice as many, a power of two. A small
- * table is cleared faster.
- */
+/* Slots of a hash table: at least twice the entries, a power of two; small ones clear faster. */
 static uint32_t hash_size_for(uint32_t entries)
 {
     uint32_t size = 256;
@@ -310,10 +304,7 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
     return status;
 }
 
-/*
- * Method HT: notes the votes of all plots in the plane, row by row of theta: masks of scans, or
- * counts.
- */
+/* Method HT: notes all plots' votes in the plane, row by row of theta: scans, or counts. */
 static enum rho_status note_ht_votes(struct rho_hough *hough, const struct rho_hough_points *points,
                                      struct rho_votes_picture *plane)
 {

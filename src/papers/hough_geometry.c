@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hough_geometry: conversion between (rho, theta) and rows and columns of the plane, and where the
- * points of a scan begin.
- */
+/* hough_geometry: (rho, theta) to rows and columns of the plane, and starts of scans. */
 #include "hough_search.h"
 
 uint32_t rho_hough_scan_start(const struct rho_hough_points *points, unsigned scan)

@@ -234,10 +234,7 @@ static uint32_t larger(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/*
- * The amount that a pair adds to the sum of the pass' component in its cell: its vote, or one of
- * its memberships.
- */
+/* What a pair adds to the component's sum in its cell: its vote, or one of its memberships. */
 static uint32_t vote_component(const struct rho_hough_pass *pass, struct rho_line line,
                                const struct rho_hough_nearest *nearest)
 {
@@ -283,10 +280,7 @@ static void vote_with_kernels(struct rho_hough_pass *pass, unsigned scan, struct
         .second = (uint16_t)(pair.second - rho_hough_scan_start(points, scan))};
 }
 
-/*
- * Lets one plot of the scan before vote with each plot of this scan, where the method takes the
- * pair.
- */
+/* Lets one plot of the scan before vote with each plot of this scan that the method pairs. */
 static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint32_t first)
 {
     const struct rho_hough *hough = pass->hough;

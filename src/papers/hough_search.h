@@ -4,11 +4,9 @@
  * Each file calls only files above it in this list:
  *
  * - hough_geometry.c: rows and columns of the plane
- * - hough_votes.c: the hash of cells with votes; the spread of NHT_C over
- * their neighbours
+ * - hough_votes.c: the hash of cells with votes; the spread of NHT_C over their neighbours
  * - hough_pairs.c: pairs of plots, their lines, and the votes that the kernels of NHT give them
- * - hough_voters.c: the plots that voted for a cell, and the track fitted through
- *   them; the memberships of a vote
+ * - hough_voters.c: the plots that voted for a cell, the track through them; memberships
  * - hough.c: configuration, passes over theta, thresholds and suppression
  */
 #ifndef RHOTRACK_HOUGH_SEARCH_H
@@ -68,7 +66,6 @@ enum rho_hough_speed_check rho_hough_speed_check(const struct rho_hough *hough,
 int rho_hough_uses_kernels(const struct rho_hough *hough);
 struct rho_line rho_hough_line_through_pair(const struct rho_hough_points *points,
                                             struct rho_hough_pair pair);
-
 /* The two kernels nearest to a line, by the squared distance (drho / eps)^2 + (dtheta / eps)^2. */
 struct rho_hough_nearest {
     float distance2[2];
@@ -83,44 +80,29 @@ struct rho_hough_nearest {
 void rho_hough_rank_kernel(const struct rho_hough *hough, struct rho_line line,
                            struct rho_line kernel, struct rho_hough_pair pair,
                            struct rho_hough_nearest *nearest);
-
-/*
- * Vote of a pair with the given nearest kernels, in units of 1 / RHO_HOUGH_VOTE; 0: it does not
- * vote.
- */
+/* Vote of a pair with these nearest kernels, in units of 1 / RHO_HOUGH_VOTE; 0: none. */
 uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
                                struct rho_line line, const struct rho_hough_nearest *nearest);
 struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
                                                            const struct rho_hough_points *points,
                                                            struct rho_line line,
                                                            const struct rho_hough_nearest *nearest);
-
 /* Lets all pairs of plots vote, for the rows of a pass. */
 void rho_hough_vote_pairs(struct rho_hough_pass *pass);
 
 void rho_hough_clear_cells(struct rho_hough_pass *pass);
 void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint32_t votes);
-
-/*
- * Fills the Gaussian weights by which votes are spread, by distance in rows or columns, in units of
- * 1 / RHO_HOUGH_VOTE.
- */
+/* Fills the weights that spread votes, by distance in rows or columns, in 1 / RHO_HOUGH_VOTE. */
 void rho_hough_spread_weights(uint32_t shares[RHO_HOUGH_REACH_MAX + 1], unsigned reach, float cell,
                               float eps);
 uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share);
-
-/*
- * Adds the cells of the wanted rows, with their sums of votes, to the list of peaks; list NULL: to
- * the plane of the pass.
- */
+/* Adds the summed cells of the wanted rows to the list; list NULL: to the plane of the pass. */
 void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *list);
-
 /* Memberships of the vote of a pair whose second plot is of scan `scan`. */
 struct rho_hough_memberships rho_hough_memberships_of_pair(const struct rho_hough *hough,
                                                            const struct rho_hough_points *points,
                                                            unsigned scan,
                                                            struct rho_hough_pair pair);
-
 /*
  * Fits *track through the plots that voted for a cell: rho_hough_track with checked arguments; with
  * HT the accumulator must be set up.

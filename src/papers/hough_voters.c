@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hough_voters: finds the plots that voted for a cell, and fits a track through them;
- * memberships of a pair's vote.
- */
+/* hough_voters: the plots that voted for a cell, the track through them; memberships. */
 #include "hough_search.h"
 
 #include "rhotrack/detail/approx.h"

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * hough_votes: hash table of the cells with votes, and the spread of votes
- * over neighbouring cells (NHT_C).
- */
+/* hough_votes: hash table of the cells with votes, and their spread over neighbours (NHT_C). */
 #include "hough_search.h"
 
 #include <string.h>
@@ -115,10 +112,7 @@ struct band {
     int32_t first, end;
 };
 
-/*
- * A cell within the band. Across the ends of theta its row lies outside the plane, and its column
- * is reversed.
- */
+/* A cell within the band; across the ends of theta its row is outside, its column reversed. */
 struct band_cell {
     int32_t row, column;
     uint32_t votes;

@@ -33,10 +33,7 @@ static unsigned votes_at(const struct rho_passive_paper_search *search, int row,
                                                    : 0u;
 }
 
-/*
- * The middle of a plateau: of the cells around `from` with the same votes, the one nearest to their
- * mean.
- */
+/* The middle of a plateau: of the cells with the same votes, the one nearest to their mean. */
 static struct cell find_plateau_middle(const struct rho_passive_paper_search *search,
                                        struct cell from, unsigned height)
 {

@@ -4,8 +4,7 @@
  * the functions that its files share.
  *
  * - passive_paper_votes.c: crossings, votes in rows of theta, confirmation by all pairs
- * - passive_paper_lines.c: the choice of the lines, and the fits through their
- *   crossings
+ * - passive_paper_lines.c: the choice of the lines, and the fits through their crossings
  * - passive_paper.c: configuration, frames, the sequence of steps of a search
  * - passive_paper_view.c: intermediate results of a search: ghost matrices, planes of votes
  */
@@ -40,62 +39,42 @@ struct rho_passive_paper_direction {
  */
 struct rho_passive_paper_direction
 rho_passive_paper_direction(const struct rho_passive_paper_search *search, int row);
-
 /* Sets the search's sensors, those with scans in the batch, and their centroid. */
 void rho_passive_paper_list_sensors(const struct rho_batch *batch,
                                     struct rho_passive_paper_search *search);
-
 /*
  * Sets the number of cells, and T, the votes that a cell needs. Returns 0 where the batch has too
  * few scans or sensors to search.
  */
 int rho_passive_paper_set_cells(struct rho_passive_paper_search *search);
 unsigned rho_passive_paper_theta_rows(const struct rho_passive_paper_config *config);
-
 /* Sets the baseline of two sensors, relative to the centroid. Returns 0 where they are too near. */
 int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
                                const struct rho_batch *batch, unsigned a, unsigned b,
                                struct rho_crossing_base *base);
-
 /* Bearings of two sensors in one scan. */
 struct rho_passive_paper_bearings {
     float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
 };
-/*
- * Collects the bearings of two sensors in a scan, fills their ghost matrix and prunes it. Returns 0
- * on an error.
- */
+/* Fills and prunes the ghost matrix of two sensors' bearings in a scan. Returns 0 on an error. */
 int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
                                   const struct rho_batch *batch,
                                   const struct rho_crossing_base *base, unsigned scan,
                                   struct rho_passive_paper_pair pair,
                                   struct rho_passive_paper_bearings *bearings,
                                   struct rho_ghost_matrix *matrix);
-
-/*
- * Crosses the bearings of two sensors in all scans, prunes ghosts, and stores the rest in
- * paper->points.
- */
+/* Crosses two sensors' bearings in all scans; those kept go to paper->points. */
 void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b);
-
 /* Column (cell of rho) in which a crossing votes for lines of a direction; -1: outside. */
 int rho_passive_paper_column(const struct rho_passive_paper_search *search,
                              struct rho_passive_paper_direction direction,
                              const struct rho_passive_paper_point *point);
-
 /* Counts the votes of the stored crossings for each cell of a row of theta. */
 void rho_passive_paper_count_row(const struct rho_passive_paper_search *search, int row,
                                  uint8_t counts[RHO_PAPER_RHO_CELLS]);
-
-/*
- * Crosses and votes with all pairs of sensors: sums of votes into paper->cells, 0 where not all
- * pairs confirm the cell.
- */
+/* Sums the votes of all pairs of sensors into paper->cells, 0 where not all confirm a cell. */
 void rho_passive_paper_vote_pairs(struct rho_passive_paper_search *search);
-
-/*
- * Chooses lines from the cells, most votes first; then fits a position and velocity to each line.
- */
+/* Chooses lines from the cells, most votes first; then fits position and velocity to each. */
 void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search);
 void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search);
 

@@ -7,16 +7,11 @@
 #include "policy.h"
 #include "rhotrack/types.h"
 
-static int is_initialised(const struct rho_passive_paper *paper)
-{
-    return paper->magic == RHO_PASSIVE_PAPER_MAGIC;
-}
-
 int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
                            struct rho_passive_paper_pair *pair)
 {
     struct rho_passive_paper_search search = {.num_sensors = 0};
-    if (!paper || !pair || !is_initialised(paper)) {
+    if (!paper || !pair || paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return 0;
     }
     rho_passive_paper_list_sensors(&paper->batch, &search);
@@ -54,7 +49,7 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
     if (!paper || !pair || !matrix) {
         return RHO_ERROR_NULL;
     }
-    if (!is_initialised(paper)) {
+    if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
     if (scan >= paper->batch.num_scans || !is_pair_of_search(paper, pair)) {
@@ -75,7 +70,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
     if (!paper || !space) {
         return RHO_ERROR_NULL;
     }
-    if (is_initialised(paper)) {
+    if (paper->magic == RHO_PASSIVE_PAPER_MAGIC) {
         rho_passive_paper_list_sensors(&paper->batch, &search);
     }
     if (search.num_sensors == 0) {
@@ -90,16 +85,13 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
     return RHO_OK;
 }
 
-/*
- * Prepares a search of the batch. STATE: the batch has too few scans or sensors; VALUE: no such
- * pair.
- */
+/* Prepares a search. STATE: the batch has too few scans or sensors; VALUE: no such pair. */
 static enum rho_status prepare_search(struct rho_passive_paper *paper,
                                       const struct rho_passive_paper_pair *pair,
                                       struct rho_passive_paper_search *search)
 {
     *search = (struct rho_passive_paper_search){.paper = paper};
-    if (!is_initialised(paper)) {
+    if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
     rho_passive_paper_list_sensors(&paper->batch, search);

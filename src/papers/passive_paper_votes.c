@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * passive_paper_votes: crossings of each pair of sensors, their votes for cells, and confirmation
- * of cells by all pairs.
- */
+/* passive_paper_votes: crossings of sensor pairs, their votes, and cells that all pairs confirm. */
 #include <string.h>
 
 #include "passive_paper_search.h"
@@ -100,10 +97,7 @@ rho_passive_paper_direction(const struct rho_passive_paper_search *search, int r
     return (struct rho_passive_paper_direction){rho_cos(theta_rad), rho_sin(theta_rad)};
 }
 
-/*
- * Eq. (3) for a crossing with known position: multiplied out it is rho = x cos(theta) + y
- * sin(theta).
- */
+/* Eq. (3) for a crossing at a known place: rho = x cos(theta) + y sin(theta). */
 int rho_passive_paper_column(const struct rho_passive_paper_search *search,
                              struct rho_passive_paper_direction direction,
                              const struct rho_passive_paper_point *point)

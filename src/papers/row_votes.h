@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * row_votes: votes and peaks in rows of accumulator cells. A template:
- * accumulator_rows.c includes it twice, with CELL an unsigned type and NAME(f)
- * adding its suffix to f. These hot loops are written so that gcc -O3 vectorises them.
+ * row_votes: votes and peaks in rows of cells. A template, included twice, with CELL an unsigned
+ * type and NAME(f) adding its suffix to f. gcc -O3 vectorises these hot loops as they are written.
  */
 
 static unsigned NAME(votes_of_cell)(const struct rho_accumulator_pass *pass, CELL cell)
@@ -12,10 +11,7 @@ static unsigned NAME(votes_of_cell)(const struct rho_accumulator_pass *pass, CEL
                                      (sizeof(CELL) > 1 ? bits_of_byte[cell >> 8] : 0u);
 }
 
-/*
- * Votes of one scan: sets its bit in the cells of its points, four at a time, as stores are the
- * limit.
- */
+/* Votes of one scan: sets its bit in its points' cells; by fours, as stores are the limit. */
 static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
 {
     unsigned i = 0;
@@ -95,10 +91,7 @@ static unsigned NAME(max_votes_beside)(const struct rho_accumulator_pass *pass, 
     return most;
 }
 
-/*
- * Whether a cell has no fewer votes than its neighbours; among equal ones only the first by theta,
- * then by rho, is a peak.
- */
+/* Whether no neighbour has more votes; among equals the first by theta, then rho, is a peak. */
 static int NAME(is_peak)(const struct rho_accumulator_pass *pass, unsigned cell, unsigned votes)
 {
     const CELL *row = pass->rows[1];
@@ -161,8 +154,7 @@ static CELL NAME(larger)(CELL a, CELL b)
 /*
  * False where none of n cells has min_votes, points or scans; n is a multiple of BLOCK. Scans in
  * cells of 8 bits are counted eight cells at a time, in words that a compiler vectorises: the bit
- * count of each byte ends in its upper half, and bits that the shift moves into the lower half stay
- * there.
+ * count of each byte ends in its upper half; bits shifted into the lower half stay there.
  */
 static int NAME(may_have_min_votes)(const struct rho_accumulator_pass *pass,
                                     const CELL *restrict row, unsigned n)

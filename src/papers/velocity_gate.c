@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * velocity_gate: Hough gate of the paper: in each plane of velocity space, the line
- * (rho, theta) on which the velocity of a target that flies straight stays; plots are gated by
- * their distance from it.
+ * velocity_gate: Hough gate of the paper: in each plane of velocity space, the line (rho, theta)
+ * on which a straight target's velocity stays; plots are gated by their distance from it.
  */
 #include <stddef.h>
 #include <stdint.h>
@@ -27,9 +26,8 @@ static float cell_centre_rad(int32_t cell, float theta_cell_rad)
 }
 
 /*
- * The theta cell with the centre nearest to an angle in [0, pi); theta is a circle of length pi, so
- * that the last cell and the first are neighbours. An angle on the border of two cells gets the
- * lower one.
+ * The theta cell with the centre nearest to an angle in [0, pi), a circle: the last cell and the
+ * first are neighbours. An angle on the border of two cells gets the lower one.
  */
 static int32_t nearest_theta_cell(float theta_rad, float theta_cell_rad, int32_t num)
 {
@@ -108,10 +106,7 @@ enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t plane_
     return RHO_OK;
 }
 
-/*
- * Distance of a velocity change from the line in one plane; 0 in planes that are not used, whose
- * cosine and sine are 0.
- */
+/* Distance of a velocity change from the line in a plane; 0 where cosine and sine are 0. */
 static float plane_distance_mps(const struct rho_gate_hough *hough, int plane, float a_mps,
                                 float b_mps)
 {

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * nearest_plot: access to the held scans and plots of a window, their bins, and the search for the
- * plot nearest to a place.
- */
+/* nearest_plot: held scans and plots of a window, their bins, the plot nearest to a place. */
 #include "policy.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
@@ -24,36 +21,26 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
     return &window->ring[place < window->scans_max ? place : place - window->scans_max];
 }
 
-/*
- * Row or column of a coordinate among n bins. Coordinates outside get the border bins, NaN the
- * first one.
- */
-static int bin_coordinate(float v_m, float origin_m, float cells_per_m, int n)
+static int column_at(const struct rho_window_scan *scan, float x_m)
 {
-    float cell = (v_m - origin_m) * cells_per_m;
-    if (!(cell > 0.0f)) {
-        return 0;
-    }
-    return cell < (float)n ? (int)cell : n - 1;
+    return rho_cell_at((x_m - scan->bin_x0_m) * scan->bins_per_m_x, scan->bins_x);
+}
+
+static int row_at(const struct rho_window_scan *scan, float y_m)
+{
+    return rho_cell_at((y_m - scan->bin_y0_m) * scan->bins_per_m_y, scan->bins_y);
 }
 
 unsigned rho_window_bin_at(const struct rho_window_scan *scan, float x_m, float y_m)
 {
-    int column = bin_coordinate(x_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x);
-    int row = bin_coordinate(y_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y);
-    return (unsigned)(row * scan->bins_x + column);
+    return (unsigned)(row_at(scan, y_m) * scan->bins_x + column_at(scan, x_m));
 }
 
 struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m,
                                              float x1_m, float y0_m, float y1_m)
 {
-    struct rho_window_bins bins = {
-        .column_first = bin_coordinate(x0_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
-        .column_last = bin_coordinate(x1_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
-        .row_first = bin_coordinate(y0_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
-        .row_last = bin_coordinate(y1_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
-    };
-    return bins;
+    return (struct rho_window_bins){column_at(scan, x0_m), column_at(scan, x1_m),
+                                    row_at(scan, y0_m), row_at(scan, y1_m)};
 }
 
 /* Bins under a gate that moves with the plots' offsets from the scan's time. */
@@ -137,8 +124,7 @@ struct rho_plot rho_window_unpack_plot(const struct rho_window_scan *scan, unsig
 
 static float squared_sigma_of_code(uint16_t code)
 {
-    float sigma = rho_window_decode_sigma(code);
-    return sigma * sigma;
+    return rho_square(rho_window_decode_sigma(code));
 }
 
 struct rho_window_plot_noise rho_window_plot_noise(const struct rho_window_scan *scan,
@@ -210,10 +196,9 @@ float rho_window_range_rate_nis(const struct rho_window_scan *scan,
                                 const struct rho_window_place *place)
 {
     struct rho_window_range_rate seen;
-    if (!rho_window_compare_range_rate(scan, plot, place, &seen)) {
-        return 0.0f;
-    }
-    return seen.error_mps * seen.error_mps / seen.variance;
+    return rho_window_compare_range_rate(scan, plot, place, &seen)
+               ? seen.error_mps * seen.error_mps / seen.variance
+               : 0.0f;
 }
 
 /*

@@ -41,9 +41,8 @@ static uint16_t code_of_clamped_sigma(float sigma)
 }
 
 /*
- * Moves the plots of earlier sectors to the new starts of their bins, the last bin first.
- * Afterwards each bin's start lies behind the plots that were moved there. Their rows were those of
- * another scan.
+ * Moves the plots of earlier sectors, with rows of other scans, to the new starts of their bins,
+ * the last bin first. Afterwards each bin's start lies behind the plots that were moved there.
  */
 static void move_earlier_plots_to_new_bins(struct rho_window_scan *slot)
 {

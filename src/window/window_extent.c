@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * window_extent: functions of rectangles of the plane; and the window's extent, which follows the
- * held plots where no area is given.
- */
+/* window_extent: rectangles of the plane; the window's extent, which follows the held plots. */
 #include "window_extent.h"
 
 #include "policy.h"
@@ -44,10 +41,7 @@ struct plot_spread {
     struct rho_extent extent;
 };
 
-/*
- * Adds a plot to the running mean and sum of squares (Welford), unless `before` makes it an
- * outlier.
- */
+/* Adds a plot to mean and sum of squares (Welford), unless `before` makes it an outlier. */
 static void add_plot(struct plot_spread *spread, const struct plot_spread *before, float x_m,
                      float y_m)
 {
@@ -73,9 +67,7 @@ static float moved_side_m(float was, float is, int is_wider)
     return is_wider ? is : was + EXTENT_DECAY * (is - was);
 }
 
-/*
- * Updates the extent by the held plots without outliers, which would make clutter look thin.
- */
+/* Updates the extent by the held plots without outliers, which would make clutter look thin. */
 void rho_window_update_extent(struct rho_window *window)
 {
     struct plot_spread spread = {0}, before;

@@ -4,10 +4,7 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
 
-/*
- * True where the bins' starts ascend and each plot lies in the bin of its place, as pushes move
- * plots by bins.
- */
+/* True where the bins' starts ascend and plots lie in their bins, as pushes move plots by bins. */
 static int has_sound_bins(const struct rho_window_scan *scan)
 {
     const unsigned num_bins = (unsigned)scan->bins_x * scan->bins_y;

@@ -45,10 +45,8 @@ NO_POLICY = re.compile(
     r"|TURN_(HIGH|MIDDLE|LOW)|^SECOND_US$|^CHECK_(START|FACTOR)$|^NAT_PER_MNAT$|^M2_PER_KM2$")
 GUARD_MIN = 1e12
 # {room: constants that change only the time or stack of a call, not its result}: cost models that
-# choose between two algorithms, numbers of elements a pass
+# choose between two algorithms
 ALIKE = {
-    "association": r"PASS_NODES$",
-    "tracker": r"PASS_SLOTS$",
     "papers": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$|BLOCKS$|CROWDED$|ROWS_|BINS_MIN$|WORK_"
               r"|HALVINGS|(SHRINK|GROW)_KEPT$",
 }

@@ -59,15 +59,9 @@ struct rho_accumulator_config {
     uint16_t min_votes; /* smallest number of votes of a peak; at least 1 */
     /* smallest votes of a peak as a share of the most votes of all cells: 0 .. 1 */
     float min_share;
-    /*
-     * number of neighbours that a peak is compared with: 4, 8, or 0: every cell with min_votes is a
-     * peak
-     */
+    /* neighbours that a peak is compared with: 4, 8, or 0 (each cell with min_votes is a peak) */
     uint8_t neighbours;
-    /*
-     * 1: every point votes in every row, with the same result, but slower; 0: rows without peaks
-     * are skipped
-     */
+    /* 1: every point votes in every row: the same, but slower; 0: skips rows without peaks */
     uint8_t no_pruning;
 };
 
@@ -75,10 +69,7 @@ struct rho_accumulator_config {
 struct rho_accumulator_points {
     const float *x_m, *y_m;
     unsigned num_scans; /* number of scans: 0 .. RHO_ACCUMULATOR_SCANS_MAX */
-    /*
-     * end of each scan's points: scan m has points scan_end[m - 1] .. scan_end[m] - 1, scan 0 from
-     * 0; must not fall
-     */
+    /* scan m has points scan_end[m - 1] .. scan_end[m] - 1, scan 0 from 0; must not fall */
     const uint32_t *scan_end;
 };
 
@@ -90,10 +81,7 @@ struct rho_accumulator_peak {
 
 struct rho_accumulator_result {
     uint32_t num_peaks;
-    /*
-     * number of peaks beyond the caller's capacity, the lowest ones; with min_share an upper bound;
-     * saturates
-     */
+    /* peaks beyond the caller's capacity, the lowest; with min_share an upper bound; saturates */
     uint32_t peaks_dropped;
     /* votes cast: points times rows of theta, without points beyond rho_max_m; saturates */
     uint32_t votes;
@@ -129,10 +117,7 @@ struct rho_accumulator {
     struct rho_accumulator_config config;
     /* the cell of rho_m, after a guard cell, is first_cell + rho_m cells_per_m */
     float cells_per_m, first_cell;
-    /*
-     * Three rows of cells of 8 bits, or of 16 bits for more than 8 scans or 255 points, with a
-     * guard cell at each end.
-     */
+    /* rows of 8-bit cells (16-bit: over 8 scans or 255 points), with guard cells at the ends */
     uint16_t rows[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
     /* sparse rows: the cells that were touched, and the cells that reached min_votes */
     int32_t touched[3][RHO_ACCUMULATOR_SPARSE_MAX];
@@ -151,10 +136,7 @@ struct rho_accumulator {
     } room;
 };
 
-/*
- * Number of rows of theta and of cells of rho in the plane of a config. Errors: CONFIG. Constant
- * cost.
- */
+/* Rows of theta and cells of rho in the plane of a config. Errors: CONFIG. Constant cost. */
 RHO_MUST_CHECK enum rho_status
 rho_accumulator_count_cells(const struct rho_accumulator_config *config, uint16_t *theta_cells,
                             uint16_t *rho_cells);
@@ -196,10 +178,7 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_find_peaks(
  */
 void rho_peak_list_offer(struct rho_peak_list *list, struct rho_accumulator_peak peak);
 
-/*
- * Sorts the peaks, best first, and drops those with less than min_share of the final votes_max.
- * Cost: n log n.
- */
+/* Sorts the peaks, best first, and drops those below min_share of votes_max. Cost: n log n. */
 void rho_peak_list_sort(struct rho_peak_list *list);
 
 /*

@@ -85,17 +85,13 @@ RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
 /*
  * Removes the bearings that a track claims from the batch. Returns the number of bearings removed.
  *   claim  for each scan and sensor the index of a bearing in the batch, from 1; 0: no bearing
- * Indices stay valid until rho_batch_compact, so that bearings of several
- * tracks can be removed; until then a removed bearing has a sigma_rad of 0. Cost: scans times
- * sensors.
+ * Indices stay valid until rho_batch_compact, so that bearings of several tracks can be removed;
+ * until then a removed bearing has a sigma_rad of 0. Cost: scans times sensors.
  */
 uint32_t rho_batch_remove(struct rho_batch *batch,
                           const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
 
-/*
- * Closes the gaps that rho_batch_remove has left in the arrays of bearings. Cost:
- * all bearings held.
- */
+/* Closes the gaps that rho_batch_remove left among the bearings. Cost: all bearings held. */
 void rho_batch_compact(struct rho_batch *batch);
 
 /*

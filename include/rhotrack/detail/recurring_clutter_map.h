@@ -57,10 +57,7 @@ struct rho_echo {
     int16_t plot;   /* row of the echo's best plot in the newest scan; -1: none */
     uint16_t hits;  /* plots of the echo so far, saturating; 0: this place in the table is free */
     uint8_t unseen; /* scans of the sensor since the last hit that covered the echo */
-    /*
-     * a plot of the echo belonged to a target that has been tracked for long; the echo's looks and
-     * returns are not counted
-     */
+    /* a plot of the echo was a target's, tracked for long; its looks and returns are not counted */
     uint8_t is_target;
     uint8_t region; /* index of the echo's region in the map's tables; UINT8_MAX: not known yet */
     uint8_t was_looked_at; /* the newest scan covered the echo */
@@ -75,10 +72,7 @@ struct rho_echo_returns {
     float returns[RHO_ECHO_HIT_CLASSES][RHO_ECHO_GAP_CLASSES];
 };
 
-/*
- * Lengths of the map's arrays. A build without it (RHO_MAX_ECHOES 0) has the smallest ones and
- * never uses them.
- */
+/* Lengths of the map's arrays. A build without it (RHO_MAX_ECHOES 0) never uses them. */
 #define RHO_ECHO_PLACES (RHO_MAX_ECHOES > 0 ? RHO_MAX_ECHOES : 1)
 #define RHO_ECHO_PLOTS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
 #define RHO_ECHO_STROBES (RHO_MAX_ECHOES > 0 ? RHO_STROBE_BINS : 1)
@@ -88,15 +82,10 @@ struct rho_clutter_map {
     int64_t time_us; /* time of the newest scan */
     float v_min_mps; /* lowest speed of targets: clutter moves more slowly; 0: clutter stands */
     uint32_t echoes_dropped; /* echoes dropped for others, or for lack of room; saturates */
-    /*
-     * plots of echoes with range rates; number of them that have the range rate of the echo's own
-     * speed
-     */
+    /* plots of echoes with range rates; those that have the range rate of the echo's own speed */
     float rate_plots, exact_plots;
     float scans_to_blocks; /* revolutions until the newest block of counts is closed */
-    /*
-     * place in the table with which the next scan begins, as the work of the last scan ended there
-     */
+    /* place in the table with which the next scan begins, where the last scan's work ended */
     uint16_t first_echo;
     uint16_t is_looked; /* `denser`, `best_per_m2` and `best_echo` are those of the newest scan */
     /*
@@ -113,10 +102,7 @@ struct rho_clutter_map {
      */
     float denser[RHO_ECHO_PLOTS], best_per_m2[RHO_ECHO_PLOTS];
     uint16_t best_echo[RHO_ECHO_PLOTS];
-    /*
-     * by direction: plots of the newest scan; eighths of the sensor's range in which they lie, a
-     * bit each
-     */
+    /* by direction: plots of the newest scan; eighths of the sensor's range with plots, as bits */
     uint16_t strobe_count[RHO_ECHO_STROBES];
     uint8_t strobe_ranges[RHO_ECHO_STROBES];
 };
@@ -129,8 +115,7 @@ struct rho_clutter_map {
  * Errors: NULL, VALUE (a place that is no coordinate, a sigma or hits outside its range). In a full
  * map the echo with the most misses for its hits is dropped; where the newest scan saw every echo
  * of a full map, the new echo is not added. Either is RHO_OK, and echoes_dropped counts it.
- * Cost: RHO_MAX_ECHOES.
- * Stack: 290 bytes.
+ * Cost: RHO_MAX_ECHOES. Stack: 290 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t sensor_id,
                                                      float x_m, float y_m, float sigma_range_m,
@@ -147,10 +132,7 @@ RHO_MUST_CHECK enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map
 const struct rho_echo *rho_clutter_map_next_known(const struct rho_clutter_map *map,
                                                   uint32_t *place);
 
-/*
- * 1: the echo stands, as far as its plots can tell, and belongs into a saved map. 0: it moves, or
- * is NULL.
- */
+/* 1: the echo stands, as far as its plots tell, and may be saved. 0: it moves, or is NULL. */
 int rho_clutter_map_is_echo_standing(const struct rho_echo *echo);
 
 /*
@@ -167,17 +149,14 @@ void rho_clutter_map_learned_looks_and_returns(const struct rho_clutter_map *map
 
 /*
  * Replaces the statistics of echoes with this number of hits after `unseen` misses. Errors: NULL,
- * VALUE (no such region, hits or unseen 0, looks outside 0 .. 1e9, returns outside 0 .. looks);
- * nothing is changed.
+ * VALUE (no such region, hits or unseen 0, looks outside 0 .. 1e9, returns outside 0 .. looks).
  */
 RHO_MUST_CHECK enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_map *map,
                                                              unsigned region, unsigned hits,
                                                              unsigned unseen, float looks,
                                                              float returns);
 
-/*
- * Probability that an echo with this number of hits returns after `unseen` misses. Constant cost.
- */
+/* Probability that an echo with so many hits returns after `unseen` misses. Constant cost. */
 float rho_clutter_map_return_probability(const struct rho_clutter_map *map, unsigned region,
                                          unsigned hits, unsigned unseen);
 
@@ -187,10 +166,7 @@ float rho_clutter_map_return_probability(const struct rho_clutter_map *map, unsi
  */
 void rho_clutter_map_restart(struct rho_clutter_map *map);
 
-/*
- * True where a map of unknown origin (a snapshot) is consistent. rho_tracker_is_sound calls it.
- * Cost: RHO_MAX_ECHOES.
- */
+/* True where a map of unknown origin (a snapshot) is consistent. Cost: RHO_MAX_ECHOES. */
 int rho_clutter_map_is_sound(const struct rho_clutter_map *map);
 
 #ifdef __cplusplus

@@ -30,10 +30,7 @@ struct rho_votes_picture {
     uint16_t first_theta, theta_cells, first_rho, rho_cells;
     /* rows (theta) and columns (rho) of the picture, at most as many as the window has */
     uint16_t height, width;
-    /*
-     * the picture, height x width, row by row, in the caller's memory; each element has the most
-     * votes of its block of cells
-     */
+    /* height x width, row by row, of the caller; an element has the most votes of its block */
     uint32_t *votes;
 };
 
@@ -46,10 +43,7 @@ struct rho_votes_picture {
 RHO_MUST_CHECK enum rho_status rho_votes_picture_init(struct rho_votes_picture *plane,
                                                       unsigned theta_cells, unsigned rho_cells);
 
-/*
- * Enters the votes of one cell of the whole plane into the picture; cells outside the window are
- * ignored.
- */
+/* Enters the votes of a cell of the whole plane; cells outside the window are ignored. */
 void rho_votes_picture_enter_cell(struct rho_votes_picture *plane, unsigned theta_cell,
                                   unsigned rho_cell, uint32_t votes);
 

@@ -50,10 +50,7 @@ struct rho_window_plot {
 #define RHO_WINDOW_INITIATED 0x4000u /* started a track: look-ups skip it */
 #define RHO_WINDOW_ROW 0x3fffu
 
-/*
- * Units of `repeats` in a nat: the field holds ln of the ratio of the clutter map's density to the
- * density map's.
- */
+/* Units of `repeats` in a nat: ln of the clutter map's density over the density map's. */
 #define RHO_WINDOW_REPEATS_PER_NAT 12.0f
 
 /* The newest input of a window: a whole scan, or the sector added last to the newest scan. */
@@ -68,10 +65,7 @@ struct rho_window_sector {
  */
 #define RHO_WINDOW_REPEATS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
 
-/*
- * One held scan of a window. plots[bin_start[c]] .. plots[bin_start[c + 1] - 1] lie in bin c, that
- * is row * bins_x + column.
- */
+/* A held scan. Bin c, row * bins_x + column, has plots[bin_start[c]] .. [bin_start[c + 1] - 1]. */
 struct rho_window_scan {
     int64_t time_us;
     /* RHO_MEASURES_... or-ed; of a revolution: common to all sectors with plots */
@@ -168,17 +162,13 @@ RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t
                                                unsigned scans_max, const struct rho_extent *area,
                                                float side_min_m);
 
-/*
- * True where a scan of this time can be pushed: the window is initialised, and no scan that it
- * holds is newer. Constant cost.
- */
+/* True where the window is initialised and holds no scan newer than time_us. Constant cost. */
 int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 
 /*
  * True where a scan would become part of the newest one held: a sector of the same sensor in the
  * same place, next to the sectors so far with a gap of an eighth of a revolution at most, and
- * within RHO_LIMIT_OFFSET_US of their time. The scan then measures what all its sectors with plots
- * measure. Constant cost.
+ * within RHO_LIMIT_OFFSET_US of their time. The scan measures what all these do. Constant cost.
  */
 int rho_window_continues_newest(const struct rho_window *window, const struct rho_scan *scan,
                                 const struct rho_sensor *sensor);
@@ -207,9 +197,7 @@ RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
                                                const struct rho_sensor *sensor, uint8_t *fates,
                                                uint32_t *left_unused);
 
-/*
- * The scan of age order m, 0 (oldest) .. num_scans - 1 (newest); m is not checked. Constant cost.
- */
+/* The scan of age order m, 0 (oldest) .. num_scans - 1, which is not checked. Constant cost. */
 struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m);
 
 /*
@@ -229,10 +217,7 @@ int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
 int rho_window_nearest_plot(const struct rho_window_scan *scan,
                             const struct rho_window_place *place, struct rho_window_work *work);
 
-/*
- * Covariance of a held plot's place, by its sigmas and its line of sight. Cost: a division, with z
- * two more.
- */
+/* Covariance of a held plot, by sigmas and line of sight. Cost: a division, with z three. */
 struct rho_window_plot_noise rho_window_plot_noise(const struct rho_window_scan *scan,
                                                    const struct rho_window_plot *plot);
 
@@ -273,8 +258,7 @@ const struct rho_sensor *rho_window_sensor_if_described(const struct rho_window_
 
 /*
  * Decodes a standard deviation: 5 bits of exponent and 11 of mantissa, 2^-12 relative error from
- * RHO_LIMIT_SIGMA_MIN to RHO_LIMIT_SIGMA_MAX; numbers of 12 significant bits are exact. Constant
- * cost.
+ * RHO_LIMIT_SIGMA_MIN to RHO_LIMIT_SIGMA_MAX; 12 significant bits are exact. Constant cost.
  */
 float rho_window_decode_sigma(uint16_t code);
 
@@ -306,9 +290,8 @@ float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m);
 void rho_extent_add(struct rho_extent *extent, float x_m, float y_m);
 
 /*
- * True where an object of unknown origin (a snapshot, memory that outlived a reset) is consistent:
- * counts, indices and numbers are within their limits. rho_snapshot_load calls it. Cost: all plots
- * held. Stack: 150 bytes.
+ * True where counts, indices and numbers of an object of unknown origin are within their limits, as
+ * rho_snapshot_load asks. Cost: all plots held. Stack: 150 bytes.
  */
 int rho_window_is_sound(const struct rho_window *window);
 
