@@ -272,8 +272,6 @@ struct rho_node {
 #endif
 };
 
-/* ---- Start ---- */
-
 /*
  * Fills the configurations with the defaults of all parts and the settings: rho_settings_apply, and
  * for sensors that are not described rho_settings_apply_sensor and the sigmas; papers' cells that
@@ -353,8 +351,6 @@ RHO_MUST_CHECK enum rho_status rho_node_add_storage(struct rho_node *node, void 
 RHO_MUST_CHECK enum rho_status rho_node_add_zone(struct rho_node *node,
                                                  const struct rho_zone *zone);
 
-/* ---- Messages in ---- */
-
 /*
  * Takes one message of any bytes: a sensor's, as rho_scan_assembler_take does, or an operator's.
  * Errors: NULL, STATE (not initialised), TYPE (another channel), CAPACITY: call rho_node_next until
@@ -383,8 +379,6 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us);
  */
 int64_t rho_node_due_us(const struct rho_node *node);
 
-/* ---- Scans in ---- */
-
 /*
  * Steps a scan or a frame by the same chain. The tracker is to know its sensor
  * (rho_tracker_set_sensor). Any two radars may share a window.
@@ -395,8 +389,6 @@ RHO_MUST_CHECK enum rho_status rho_node_step_scan(struct rho_node *node,
                                                   const struct rho_scan *scan);
 RHO_MUST_CHECK enum rho_status rho_node_step_frame(struct rho_node *node,
                                                    const struct rho_frame *frame);
-
-/* ---- Messages out ---- */
 
 /*
  * Number of messages of the last rho_node_next: answers to an operator; after a step tracks in
@@ -442,8 +434,6 @@ int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
  * there is none. Constant cost.
  */
 struct rho_initiator *rho_node_window(struct rho_node *node, unsigned place);
-
-/* ---- Snapshot ---- */
 
 /* Largest number of parts of a node's snapshot. */
 #define RHO_NODE_PARTS (RHO_MAX_WINDOWS + 5)

@@ -18,8 +18,6 @@
  */
 enum { ROOM_ENOUGH = 0, ROOM_WANTED, ROOM_MADE };
 
-/* ---- Scans of plots ---- */
-
 /* Refuses a scan whose sensor the tracker does not take: the sensor's position would be unknown. */
 static enum rho_node_due give_scan(struct rho_node *node, const struct rho_scan *scan,
                                    const struct rho_sensor *sensor)
@@ -81,8 +79,6 @@ static enum rho_node_due give_item(struct rho_node *node)
     }
     return RHO_NODE_NOTHING;
 }
-
-/* ---- What is due ---- */
 
 static enum rho_node_due give_closed_frame(struct rho_node *node)
 {

@@ -7,8 +7,6 @@
 
 #define COMMAND_IS_LATE RHO_ERROR_STATE
 
-/* ---- Answers ---- */
-
 void node_answers_drop(struct rho_node *node)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
@@ -69,8 +67,6 @@ static void answer_setting(struct rho_node *node, struct rho_message_setting_ans
     *add_answer(NODE_OPERATOR(node)) =
         (struct rho_node_answer){.is_setting = 1, .setting = *answer};
 }
-
-/* ---- Commands ---- */
 
 static void refuse(struct rho_node *node, const struct rho_node_command *waiting,
                    enum rho_status status)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * node_parts: the parts of a node that a build may lack, as pointers that are constants NULL there,
- * and what the files of this room call of one another. A part is used behind an `if` on the build's
- * option alone.
+ * and what the files of this room call of one another, node_x_* of node_x.c. A part is used behind an
+ * `if` on the build's option alone.
  */
 #ifndef RHOTRACK_NODE_PARTS_H
 #define RHOTRACK_NODE_PARTS_H
@@ -83,12 +83,8 @@ static inline int node_is_bearings_by_paper(const struct rho_node *node)
     return RHO_NODE_HAS_PASSIVE_PAPER && (!(RHO_SEARCHES) || node->options.is_bearings_by_paper);
 }
 
-/* ---- node_setup.c ---- */
-
-/* Begins anew on another clock (node.h). Frames stay. */
+/* node_setup.c: begins anew on another clock (node.h). Frames stay. */
 void node_restart(struct rho_node *node);
-
-/* ---- node_frames.c ---- */
 
 /* Empties frames and their sensors, but keeps the counters; the first frame waits for all. */
 void node_frames_reset(struct rho_node *node);
@@ -105,21 +101,15 @@ int node_frames_close(struct rho_node *node);
 /* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
 void node_frames_push(struct rho_node *node, int64_t now_us);
 
-/* ---- node_sensors.c ---- */
-
 /* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
 int node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
 
 /* Describes a sensor to the tracker; returns 0 where that refuses it. */
 int node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
 
-/* ---- node_chain.c ---- */
-
 /* The chain of a step (node.h); is_live: the scan came as messages. */
 enum rho_status node_chain_scan(struct rho_node *node, const struct rho_scan *scan, int is_live);
 enum rho_status node_chain_frame(struct rho_node *node, const struct rho_frame *frame);
-
-/* ---- node_windows.c ---- */
 
 /* All windows but the first become free, and the first has no sensor. */
 enum rho_status node_windows_init(struct rho_node *node, const struct rho_initiator_config *config);
@@ -134,8 +124,6 @@ const struct rho_initiator *node_windows_newest(const struct rho_node *node);
 /* The window of this sensor, added where it is new; NULL where there is no room for it. */
 struct rho_initiator *node_windows_add(struct rho_node *node, int32_t sensor_id);
 
-/* ---- node_commands.c ---- */
-
 /* Queues an operator's command or setting, or counts it; 0 where the channel is another one. */
 int node_commands_take(struct rho_node *node, const char *channel, const uint8_t *data, size_t size,
                        int64_t now_us);
@@ -143,7 +131,7 @@ int node_commands_take(struct rho_node *node, const char *channel, const uint8_t
 /* Runs the commands that wait, after a step; its report shows what they change. */
 void node_commands_run(struct rho_node *node);
 
-/* Answers that are published are dropped; the others become messages. */
+/* node_commands.c: answers that are published are dropped; the others become messages. */
 void node_answers_drop(struct rho_node *node);
 void node_answers_show(struct rho_node *node);
 unsigned node_answers_count(const struct rho_node *node);

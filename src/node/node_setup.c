@@ -70,8 +70,6 @@ void rho_node_config_default(struct rho_node_config *config, const struct rho_se
     }
 }
 
-/* ---- Start ---- */
-
 static enum rho_status init_bearings(struct rho_node *node, const struct rho_node_config *config)
 {
     enum rho_status status =
@@ -206,8 +204,6 @@ enum rho_status rho_node_add_zone(struct rho_node *node, const struct rho_zone *
     return RHO_MAX_ZONES > 0 ? rho_zones_add(NODE_ZONES(node), zone) : RHO_ERROR_CAPACITY;
 }
 
-/* ---- Restart ---- */
-
 /* The configurations were taken before: no init can refuse them. */
 void node_restart(struct rho_node *node)
 {
@@ -224,8 +220,6 @@ void node_restart(struct rho_node *node)
     node_frames_restart(node);
     node->epoch = node->epoch == INT32_MAX ? 0 : node->epoch + 1;
 }
-
-/* ---- Change ---- */
 
 enum rho_status rho_node_reconfigure(struct rho_node *node, const struct rho_node_config *config)
 {

@@ -47,8 +47,6 @@ unsigned rho_node_list_parts(struct rho_node *node, struct rho_snapshot_part *pa
     return count;
 }
 
-/* ---- Load ---- */
-
 /* An image and the parts that it has. */
 struct saved {
     const uint8_t *image;

@@ -89,8 +89,6 @@ enum rho_status node_windows_init(struct rho_node *node, const struct rho_initia
                : RHO_OK;
 }
 
-/* ---- Which radars share a window ---- */
-
 /* Interval between a sensor's scans; 0: not known yet. */
 static float scan_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
 {
@@ -177,8 +175,6 @@ static int32_t sensor_of_window(const struct rho_node *node, const struct rho_sc
     }
     return scan->sensor_id;
 }
-
-/* ---- Windows of sensors ---- */
 
 /* Pushes a held scan into another window; plots that started tracks are marked as claimed. */
 static void copy_held_scan(struct rho_node *node, struct rho_initiator *to,
