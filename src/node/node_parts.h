@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * node_parts: the parts of a node that a build may lack, as pointers that are constants NULL there,
- * and what the files of this room call of one another, node_x_* of node_x.c. A part is used behind an
- * `if` on the build's option alone.
+ * and what the files of this room call of one another, node_x_* of node_x.c. A part is used
+ * behind an `if` on the build's option alone.
  */
 #ifndef RHOTRACK_NODE_PARTS_H
 #define RHOTRACK_NODE_PARTS_H
@@ -70,6 +70,12 @@ enum { NODE_FRAME_NONE = 0, NODE_FRAME_CLOSED, NODE_FRAME_RESTARTED };
 static inline int node_is_ready(const struct rho_node *node)
 {
     return node && node->magic == RHO_NODE_MAGIC;
+}
+
+/* Errors of a call with a node and what it is given: NULL, STATE (not initialised). */
+static inline enum rho_status node_check(const struct rho_node *node, const void *given)
+{
+    return !node || !given ? RHO_ERROR_NULL : !node_is_ready(node) ? RHO_ERROR_STATE : RHO_OK;
 }
 
 /* 1 where the papers' methods start tracks, from plots or from bearings. */
