@@ -330,9 +330,7 @@ RHO_MUST_CHECK enum rho_status rho_node_set_settings(struct rho_node *node,
 /* Bytes of storage for further initiation windows. Constant cost. */
 size_t rho_node_storage_size(unsigned num_windows);
 
-/*
- * 1 where the next radar would have to share a window for want of storage. Constant cost.
- */
+/* 1 where the next radar would have to share a window for want of storage. Constant cost. */
 int rho_node_wants_storage(const struct rho_node *node);
 
 /*
@@ -354,8 +352,7 @@ RHO_MUST_CHECK enum rho_status rho_node_add_zone(struct rho_node *node,
 /*
  * Takes one message of any bytes: a sensor's, as rho_scan_assembler_take does, or an operator's.
  * Errors: NULL, STATE (not initialised), TYPE (another channel), CAPACITY: call rho_node_next until
- * it returns RHO_NODE_NOTHING, and take the message again.
- * Stack: 2 KB.
+ * it returns RHO_NODE_NOTHING, and take the message again. Stack: 2 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_take(struct rho_node *node, const char *channel,
                                              const uint8_t *data, size_t size, int64_t now_us);
@@ -374,8 +371,7 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us);
 
 /*
  * Reception time at which rho_node_next is to be called even if no message has come; INT64_MAX:
- * only after a message. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS.
- * Stack: 190 bytes.
+ * only after a message. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 190 bytes.
  */
 int64_t rho_node_due_us(const struct rho_node *node);
 
