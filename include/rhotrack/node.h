@@ -272,8 +272,6 @@ struct rho_node {
 #endif
 };
 
-/* ---- Start ---- */
-
 /*
  * Fills the configurations with the defaults of all parts and the settings: rho_settings_apply, and
  * for sensors that are not described rho_settings_apply_sensor and the sigmas; papers' cells that
@@ -332,9 +330,7 @@ RHO_MUST_CHECK enum rho_status rho_node_set_settings(struct rho_node *node,
 /* Bytes of storage for further initiation windows. Constant cost. */
 size_t rho_node_storage_size(unsigned num_windows);
 
-/*
- * 1 where the next radar would have to share a window for want of storage. Constant cost.
- */
+/* 1 where the next radar would have to share a window for want of storage. Constant cost. */
 int rho_node_wants_storage(const struct rho_node *node);
 
 /*
@@ -353,13 +349,10 @@ RHO_MUST_CHECK enum rho_status rho_node_add_storage(struct rho_node *node, void 
 RHO_MUST_CHECK enum rho_status rho_node_add_zone(struct rho_node *node,
                                                  const struct rho_zone *zone);
 
-/* ---- Messages in ---- */
-
 /*
  * Takes one message of any bytes: a sensor's, as rho_scan_assembler_take does, or an operator's.
  * Errors: NULL, STATE (not initialised), TYPE (another channel), CAPACITY: call rho_node_next until
- * it returns RHO_NODE_NOTHING, and take the message again.
- * Stack: 2 KB.
+ * it returns RHO_NODE_NOTHING, and take the message again. Stack: 2 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_take(struct rho_node *node, const char *channel,
                                              const uint8_t *data, size_t size, int64_t now_us);
@@ -378,12 +371,9 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us);
 
 /*
  * Reception time at which rho_node_next is to be called even if no message has come; INT64_MAX:
- * only after a message. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS.
- * Stack: 190 bytes.
+ * only after a message. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 190 bytes.
  */
 int64_t rho_node_due_us(const struct rho_node *node);
-
-/* ---- Scans in ---- */
 
 /*
  * Steps a scan or a frame by the same chain. The tracker is to know its sensor
@@ -395,8 +385,6 @@ RHO_MUST_CHECK enum rho_status rho_node_step_scan(struct rho_node *node,
                                                   const struct rho_scan *scan);
 RHO_MUST_CHECK enum rho_status rho_node_step_frame(struct rho_node *node,
                                                    const struct rho_frame *frame);
-
-/* ---- Messages out ---- */
 
 /*
  * Number of messages of the last rho_node_next: answers to an operator; after a step tracks in
@@ -442,8 +430,6 @@ int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
  * there is none. Constant cost.
  */
 struct rho_initiator *rho_node_window(struct rho_node *node, unsigned place);
-
-/* ---- Snapshot ---- */
 
 /* Largest number of parts of a node's snapshot. */
 #define RHO_NODE_PARTS (RHO_MAX_WINDOWS + 5)

@@ -359,13 +359,10 @@ rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembler,
  *   channel  ends with NUL
  *   now_us   reception clock
  * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel, or of a kind that is none of
- * RHO_SCAN_KINDS), CAPACITY (no room for another open scan: call
- * rho_scan_assembler_next once, step what it gives, if anything, and take the message again; two
- * such calls make room); nothing
- * is changed but for that call.
- * Cost: the message's bytes, twice, RHO_MAX_SENSORS, and where parts come out of order the scan's
- * plots moved.
- * Stack: 2 KB: the message as a struct.
+ * RHO_SCAN_KINDS), CAPACITY (no room for another open scan: call rho_scan_assembler_next once, step
+ * what it gives, if anything, and take the message again; two such calls make room); nothing is
+ * changed but for that call. Cost: the message's bytes, twice, RHO_MAX_SENSORS, and where parts
+ * come out of order the scan's plots moved. Stack: 2 KB: the message as a struct.
  */
 RHO_MUST_CHECK enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler,
                                                        const char *channel, const uint8_t *data,
@@ -375,16 +372,14 @@ RHO_MUST_CHECK enum rho_status rho_scan_assembler_take(struct rho_scan_assembler
  * The next scan that is due, if there is one; it is valid until the next call of this function.
  * now_us INT64_MAX: all that is there goes out.
  * Returns 0 where nothing is due, or assembler is not initialised. Cost: RHO_MAX_OPEN_SCANS times
- * RHO_MAX_SENSORS.
- * Stack: 300 bytes.
+ * RHO_MAX_SENSORS. Stack: 300 bytes.
  */
 int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
                             struct rho_scan_assembler_item *item);
 
 /*
  * When rho_scan_assembler_next should be called though no message comes; INT64_MAX: not before one
- * does.
- * Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 180 bytes.
+ * does. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 180 bytes.
  */
 int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler);
 

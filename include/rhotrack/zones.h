@@ -102,9 +102,7 @@ struct rho_zone_visitor {
 struct rho_zones {
     uint32_t magic;
     uint16_t num_zones, num_events, num_visitors;
-    /*
-     * events beyond RHO_ZONE_EVENTS in a step, since rho_zones_init; their tracks are counted
-     */
+    /* events beyond RHO_ZONE_EVENTS in a step, since rho_zones_init; their tracks are counted */
     uint32_t events_dropped;
     int64_t time_us; /* time of the last step */
     struct rho_zone zones[RHO_ZONE_PLACES];

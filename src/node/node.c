@@ -18,8 +18,6 @@
  */
 enum { ROOM_ENOUGH = 0, ROOM_WANTED, ROOM_MADE };
 
-/* ---- Scans of plots ---- */
-
 /* Refuses a scan whose sensor the tracker does not take: the sensor's position would be unknown. */
 static enum rho_node_due give_scan(struct rho_node *node, const struct rho_scan *scan,
                                    const struct rho_sensor *sensor)
@@ -42,7 +40,6 @@ static void let_item_wait(struct rho_node *node)
 {
     struct rho_node_waiting *waiting =
         NODE_WAITING(node) + place_of_waiting(node, node->num_waiting++);
-
     waiting->scan = node->item.scan;
     waiting->sensor = node->item.sensor;
     waiting->has_sensor = node->item.has_sensor;
@@ -54,7 +51,6 @@ static void let_item_wait(struct rho_node *node)
 static enum rho_node_due give_waiting(struct rho_node *node)
 {
     const struct rho_node_waiting *first = NODE_WAITING(node) + node->first_waiting;
-
     node->num_waiting--;
     node->first_waiting = (uint8_t)place_of_waiting(node, 1);
     return give_scan(node, &first->scan, first->has_sensor ? &first->sensor : NULL);
@@ -68,7 +64,6 @@ static enum rho_node_due give_item(struct rho_node *node)
 {
     const struct rho_frames_slot *frame = rho_node_frames_open(node);
     const struct rho_scan_assembler_item *item = &node->item;
-
     if (node->num_waiting == 0 && (!frame || frame->time_us >= item->scan.time_us)) {
         node->has_item = 0;
         return give_scan(node, &item->scan, item->has_sensor ? &item->sensor : NULL);
@@ -82,12 +77,9 @@ static enum rho_node_due give_item(struct rho_node *node)
     return RHO_NODE_NOTHING;
 }
 
-/* ---- What is due ---- */
-
 static enum rho_node_due give_closed_frame(struct rho_node *node)
 {
     struct rho_frames *frames = NODE_FRAMES(node);
-
     frames->config.sensors_min = PASSIVE_MIN;
     if (node->has_closed == NODE_FRAME_CLOSED && frames->slots[1 - frames->open].is_restart) {
         node->has_closed = NODE_FRAME_RESTARTED;
@@ -106,7 +98,6 @@ static enum rho_node_due give_held(struct rho_node *node)
     enum rho_node_due due = RHO_NODE_NOTHING;
     const struct rho_frames_slot *frame;
     int64_t time_us;
-
     while (RHO_NODE_HAS_BEARINGS && due == RHO_NODE_NOTHING) {
         if (node->has_closed) {
             return give_closed_frame(node);
@@ -153,7 +144,6 @@ static int is_of_another_clock(const struct rho_node *node)
     int64_t time_us = RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)
                           ? node->item.bearings.time_us
                           : node->item.scan.time_us;
-
     return node->is_restored && tracker->has_time &&
            time_us < tracker->time_us - node->assembler.config.jump_max_us;
 }
@@ -163,7 +153,6 @@ static int fetch_item(struct rho_node *node, int64_t now_us)
 {
     struct rho_scan_assembler *assembler = &node->assembler;
     const uint8_t room = node->is_making_room;
-
     node->is_making_room = room == ROOM_WANTED ? ROOM_MADE : ROOM_ENOUGH;
     if (room == ROOM_MADE) {
         return 0;
@@ -184,7 +173,6 @@ static int fetch_item(struct rho_node *node, int64_t now_us)
 static enum rho_status step_closed_frame(struct rho_node *node)
 {
     struct rho_frame_view view;
-
     (void)rho_frames_closed(NODE_FRAMES(node), &view);
     return rho_node_chain_frame(node, &view.frame);
 }
@@ -193,7 +181,6 @@ static enum rho_status step_closed_frame(struct rho_node *node)
 static enum rho_node_due do_due(struct rho_node *node, enum rho_node_due due)
 {
     enum rho_status status = RHO_OK;
-
     if (due == RHO_NODE_RESTART) {
         rho_node_commands_refuse(node, INT64_MAX);
         node->counters.restarts = rho_count(node->counters.restarts, 1);
@@ -210,7 +197,6 @@ static enum rho_node_due do_next(struct rho_node *node, int64_t now_us)
 {
     enum rho_node_due due = RHO_NODE_NOTHING;
     int has_more = 1;
-
     while (has_more && due == RHO_NODE_NOTHING) {
         due = give_held(node);
         if (due == RHO_NODE_NOTHING && node->has_item) {
@@ -228,8 +214,7 @@ static enum rho_node_due do_next(struct rho_node *node, int64_t now_us)
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)
 {
     enum rho_node_due done = RHO_NODE_NOTHING;
-
-    if (!rho_node_is_ready(node)) {
+    if (!node_is_ready(node)) {
         return RHO_NODE_NOTHING;
     }
     if (now_us != INT64_MAX) {
@@ -256,8 +241,7 @@ enum rho_status rho_node_take(struct rho_node *node, const char *channel, const 
                               size_t size, int64_t now_us)
 {
     enum rho_status status;
-
-    if (!rho_node_is_ready(node)) {
+    if (!node_is_ready(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     if (RHO_MAX_COMMANDS > 0 && rho_node_commands_take(node, channel, data, size, now_us)) {
@@ -272,8 +256,7 @@ enum rho_status rho_node_take(struct rho_node *node, const char *channel, const 
 int64_t rho_node_due_us(const struct rho_node *node)
 {
     int64_t due_us = INT64_MAX;
-
-    if (rho_node_is_ready(node)) {
+    if (node_is_ready(node)) {
         due_us = rho_scan_assembler_due_us(&node->assembler);
         due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
     }
@@ -283,7 +266,6 @@ int64_t rho_node_due_us(const struct rho_node *node)
 void rho_node_count_time(struct rho_node *node, int64_t took_us)
 {
     uint32_t step_us = took_us < 0 ? 0 : took_us < INT32_MAX ? (uint32_t)took_us : INT32_MAX;
-
     if (node) {
         node->timing.sum_us = rho_count(node->timing.sum_us, step_us);
         node->timing.max_us = step_us > node->timing.max_us ? step_us : node->timing.max_us;

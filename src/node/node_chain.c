@@ -24,7 +24,6 @@ enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan
     const int is_by_paper = rho_node_is_plots_by_paper(node);
     struct rho_initiator *initiator = NULL;
     enum rho_status status;
-
     if (RHO_SEARCHES && !is_by_paper) {
         initiator = rho_node_windows_find(node, scan, is_live);
     }
@@ -50,7 +49,6 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
     const int is_by_paper = rho_node_is_bearings_by_paper(node);
     const enum rho_status status = rho_tracker_step_frame(
         &node->tracker, is_by_paper ? NULL : NODE_PASSIVE(node), frame, &node->report);
-
     if (status != RHO_OK) {
         node->counters.frames_refused = rho_count(node->counters.frames_refused, 1);
         return status;
@@ -65,19 +63,14 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
 
 enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan *scan)
 {
-    if (!node || !scan) {
-        return RHO_ERROR_NULL;
-    }
-    return rho_node_is_ready(node) ? rho_node_chain_scan(node, scan, 0) : RHO_ERROR_STATE;
+    const enum rho_status status = node_check(node, scan);
+    return status == RHO_OK ? node_chain_scan(node, scan, 0) : status;
 }
 
 enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_frame *frame)
 {
-    if (!node || !frame) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
-    }
-    return RHO_NODE_HAS_BEARINGS ? rho_node_chain_frame(node, frame) : RHO_ERROR_TYPE;
+    const enum rho_status status = node_check(node, frame);
+    return status != RHO_OK        ? status
+           : RHO_NODE_HAS_BEARINGS ? node_chain_frame(node, frame)
+                                   : RHO_ERROR_TYPE;
 }

@@ -7,12 +7,9 @@
 
 #define COMMAND_IS_LATE RHO_ERROR_STATE
 
-/* ---- Answers ---- */
-
-void rho_node_answers_drop(struct rho_node *node)
+void node_answers_drop(struct rho_node *node)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
-
     if (RHO_MAX_COMMANDS > 0 && operated->num_shown > 0) {
         operated->num_answers = (uint16_t)(operated->num_answers - operated->num_shown);
         memmove(operated->answers, operated->answers + operated->num_shown,
@@ -37,7 +34,6 @@ static void count_answer(struct rho_node *node, int8_t status)
 {
     uint32_t *counter =
         status == RHO_OK ? &node->counters.commands_done : &node->counters.commands_refused;
-
     *counter = rho_count(*counter, 1);
 }
 
@@ -70,8 +66,6 @@ static void answer_setting(struct rho_node *node, struct rho_message_setting_ans
         (struct rho_node_answer){.is_setting = 1, .setting = *answer};
 }
 
-/* ---- Commands ---- */
-
 static void refuse(struct rho_node *node, const struct rho_node_command *waiting,
                    enum rho_status status)
 {
@@ -82,7 +76,6 @@ static void refuse(struct rho_node *node, const struct rho_node_command *waiting
                                                  .number = waiting->command.number,
                                                  .action = waiting->command.action,
                                                  .status = (int8_t)status};
-
     if (waiting->is_setting) {
         answer_setting(node, &setting);
     } else {
@@ -94,7 +87,6 @@ void rho_node_commands_refuse(struct rho_node *node, int64_t before_us)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
     unsigned kept = 0;
-
     if (RHO_MAX_COMMANDS == 0) {
         return;
     }
@@ -113,7 +105,6 @@ static void change_setting(struct rho_node *node, const struct rho_message_setti
 {
     struct rho_settings settings = node->settings;
     struct rho_message_setting_answer answer;
-
     if (rho_command_set(setting, &settings, &answer) == RHO_OK) {
         /* the range of a single sensor may conflict with the setting */
         answer.status = (int8_t)rho_node_set_settings(node, &settings);
@@ -126,7 +117,6 @@ void rho_node_commands_run(struct rho_node *node)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
     struct rho_message_command_answer answer;
-
     for (unsigned i = 0; RHO_MAX_COMMANDS > 0 && i < operated->num_commands; i++) {
         if (operated->commands[i].is_setting) {
             change_setting(node, &operated->commands[i].setting);
@@ -165,7 +155,6 @@ int rho_node_commands_take(struct rho_node *node, const char *channel, const uin
     struct rho_node_operator *operated = NODE_OPERATOR(node);
     struct rho_node_command waiting = {
         .came_us = now_us, .is_setting = is_channel(channel, RHO_MESSAGE_SETTING_CHANNEL)};
-
     if (RHO_MAX_COMMANDS == 0 ||
         (!waiting.is_setting && !is_channel(channel, RHO_MESSAGE_COMMAND_CHANNEL))) {
         return 0;

@@ -17,10 +17,8 @@
 void rho_node_frames_reset(struct rho_node *node)
 {
     struct rho_frames *frames = NODE_FRAMES(node);
-
     if (RHO_NODE_HAS_BEARINGS) {
         struct rho_frames_counters counters = frames->counters;
-
         (void)!rho_frames_init(frames, sizeof *frames, &frames->config);
         frames->config.sensors_min = RHO_MAX_PASSIVE_SENSORS;
         counters.scans_taken = 0; /* 0 tells the frames that they have no clock yet */
@@ -33,12 +31,10 @@ void rho_node_frames_restart(struct rho_node *node)
 {
     if (RHO_NODE_HAS_PASSIVE) {
         struct rho_passive *passive = NODE_PASSIVE(node);
-
         (void)!rho_passive_init(passive, sizeof *passive, &passive->config);
     }
     if (rho_node_is_bearings_by_paper(node)) {
         struct rho_passive_paper *paper = NODE_PASSIVE_PAPER(node);
-
         (void)!rho_passive_paper_init(paper, sizeof *paper, &paper->config);
     }
 }
@@ -46,7 +42,6 @@ void rho_node_frames_restart(struct rho_node *node)
 const struct rho_frames_slot *rho_node_frames_open(const struct rho_node *node)
 {
     const struct rho_frames *frames = NODE_FRAMES(node);
-
     return RHO_NODE_HAS_BEARINGS && frames->slots[frames->open].num_scans > 0
                ? &frames->slots[frames->open]
                : NULL;
@@ -73,10 +68,8 @@ static int is_near_others(const struct rho_node *node, const struct rho_bearing_
                                   ? NODE_PASSIVE_PAPER(node)->batch.apart_max_m
                               : RHO_NODE_HAS_PASSIVE ? NODE_PASSIVE(node)->batch.apart_max_m
                                                      : RANGE_UNKNOWN_M;
-
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         float x_m = frames->sensors[i].x_m - scan->x_m, y_m = frames->sensors[i].y_m - scan->y_m;
-
         if (x_m * x_m + y_m * y_m > apart_max_m * apart_max_m) {
             return 0;
         }
@@ -88,7 +81,6 @@ static int is_near_others(const struct rho_node *node, const struct rho_bearing_
 static int add_to_frame(struct rho_node *node, const struct rho_bearing_scan *scan)
 {
     struct rho_frames *frames = NODE_FRAMES(node);
-
     if (!is_near_others(node, scan) || rho_frames_push(frames, scan) != RHO_OK) {
         return 0;
     }
@@ -108,10 +100,8 @@ static int add_to_frame(struct rho_node *node, const struct rho_bearing_scan *sc
 static int must_reset_after_refusal(struct rho_node *node, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames *frames = NODE_FRAMES(node);
-
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         int32_t sensor_id = frames->sensors[i].sensor_id;
-
         if (sensor_id == scan->sensor_id ? ++node->refused_scans[i] >= MOVED_SCANS
                                          : !rho_node_sensor_is_heard(node, sensor_id)) {
             return 1;
@@ -123,7 +113,6 @@ static int must_reset_after_refusal(struct rho_node *node, const struct rho_bear
 static void describe_sensor(struct rho_node *node)
 {
     struct rho_sensor sensor = node->item.sensor;
-
     if (node->item.has_sensor) {
         if (node->passive_range_max_m > 0.0f && sensor.range_max_m >= RANGE_UNKNOWN_M) {
             sensor.range_max_m = node->passive_range_max_m;
@@ -137,8 +126,7 @@ static void set_due_time(struct rho_node *node, int64_t now_us)
 {
     int64_t hold_us = node->assembler.config.hold_us;
     int64_t wait_us = hold_us + NODE_FRAMES(node)->config.tolerance_us;
-
-    node->frame_due_us = rho_node_frames_open(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
+    node->frame_due_us = node_frames_open(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
                              ? now_us + wait_us
                              : INT64_MAX;
 }
@@ -147,7 +135,6 @@ void rho_node_frames_push(struct rho_node *node, int64_t now_us)
 {
     const struct rho_bearing_scan *scan = &node->item.bearings;
     int is_again = node->is_forgetting;
-
     node->is_forgetting = 0;
     if (RHO_NODE_HAS_BEARINGS && is_again) {
         rho_node_frames_reset(node);

@@ -22,8 +22,7 @@ static unsigned num_events(const struct rho_node *node)
 uint16_t rho_node_num_messages(const struct rho_node *node)
 {
     unsigned num = 0;
-
-    if (rho_node_is_ready(node)) {
+    if (node_is_ready(node)) {
         num = num_answers(node);
         if (node->done == RHO_NODE_SCAN || node->done == RHO_NODE_FRAME) {
             num += rho_publish_num_parts(&node->report) + 1u + num_bodies(node) + num_events(node);
@@ -36,7 +35,6 @@ const char *rho_node_channel(const struct rho_node *node, uint16_t part)
 {
     const unsigned of = part - num_answers(node);
     const unsigned peaks = rho_publish_num_parts(&node->report);
-
     if (RHO_MAX_COMMANDS > 0 && part < num_answers(node)) {
         return NODE_OPERATOR(node)->answers[part].is_setting ? RHO_MESSAGE_SETTING_ANSWER_CHANNEL
                                                              : RHO_MESSAGE_COMMAND_ANSWER_CHANNEL;
@@ -62,7 +60,6 @@ static enum rho_status publish_events(const struct rho_node *node, uint8_t *buff
                                       size_t *size)
 {
     struct rho_message_zone_event_list list;
-
     rho_publish_zone_events(NODE_ZONES(node), &list);
     list.scan = node->step;
     list.epoch = node->epoch;
@@ -77,10 +74,8 @@ static enum rho_status publish_peaks(const struct rho_node *node, uint8_t *buffe
     const struct rho_initiator *initiator =
         RHO_SEARCHES && !is_frame ? rho_node_windows_newest(node) : NULL;
     const struct rho_passive *passive =
-        RHO_NODE_HAS_PASSIVE && is_frame && !rho_node_is_bearings_by_paper(node)
-            ? NODE_PASSIVE(node)
-            : NULL;
-
+        RHO_NODE_HAS_PASSIVE && is_frame && !node_is_bearings_by_paper(node) ? NODE_PASSIVE(node)
+                                                                             : NULL;
     return rho_publish_peaks(initiator, passive, node->report.time_us, node->step, buffer, capacity,
                              size);
 }
@@ -89,8 +84,7 @@ enum rho_status rho_node_publish(const struct rho_node *node, uint16_t part, uin
                                  size_t capacity, size_t *size)
 {
     unsigned of = part, peaks;
-
-    if (!rho_node_is_ready(node)) {
+    if (!node_is_ready(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     if (part >= rho_node_num_messages(node)) {
@@ -149,7 +143,6 @@ int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
     const struct rho_tracker *tracker = rho_node_is_ready(node) ? &node->tracker : NULL;
     const unsigned place =
         tracker && node->next_learned < tracker->num_sensors ? node->next_learned : 0;
-
     if (!rho_publish_learned(tracker, place, learned)) {
         return 0;
     }

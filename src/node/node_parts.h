@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * node_parts: the parts of a node that a build may lack, as pointers that are constants NULL there,
- * and what the files of this room call of one another. A part is used behind an `if` on the build's
- * option alone.
+ * and what the files of this room call of one another, node_x_* of node_x.c. A part is used
+ * behind an `if` on the build's option alone.
  */
 #ifndef RHOTRACK_NODE_PARTS_H
 #define RHOTRACK_NODE_PARTS_H
@@ -72,6 +72,12 @@ static inline int rho_node_is_ready(const struct rho_node *node)
     return node && node->magic == RHO_NODE_MAGIC;
 }
 
+/* Errors of a call with a node and what it is given: NULL, STATE (not initialised). */
+static inline enum rho_status node_check(const struct rho_node *node, const void *given)
+{
+    return !node || !given ? RHO_ERROR_NULL : !node_is_ready(node) ? RHO_ERROR_STATE : RHO_OK;
+}
+
 /* 1 where the papers' methods start tracks, from plots or from bearings. */
 static inline int rho_node_is_plots_by_paper(const struct rho_node *node)
 {
@@ -83,12 +89,8 @@ static inline int rho_node_is_bearings_by_paper(const struct rho_node *node)
     return RHO_NODE_HAS_PASSIVE_PAPER && (!(RHO_SEARCHES) || node->options.is_bearings_by_paper);
 }
 
-/* ---- node_setup.c ---- */
-
-/* Begins anew on another clock (node.h). Frames stay. */
-void rho_node_restart(struct rho_node *node);
-
-/* ---- node_frames.c ---- */
+/* node_setup.c: begins anew on another clock (node.h). Frames stay. */
+void node_restart(struct rho_node *node);
 
 /* Empties frames and their sensors, but keeps the counters; the first frame waits for all. */
 void rho_node_frames_reset(struct rho_node *node);
@@ -105,22 +107,16 @@ int rho_node_frames_close(struct rho_node *node);
 /* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
 void rho_node_frames_push(struct rho_node *node, int64_t now_us);
 
-/* ---- node_sensors.c ---- */
-
 /* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
 int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
 
 /* Describes a sensor to the tracker; returns 0 where that refuses it. */
 int rho_node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
 
-/* ---- node_chain.c ---- */
-
 /* The chain of a step (node.h); is_live: the scan came as messages. */
 enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan *scan,
                                     int is_live);
 enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_frame *frame);
-
-/* ---- node_windows.c ---- */
 
 /* All windows but the first become free, and the first has no sensor. */
 enum rho_status rho_node_windows_init(struct rho_node *node,
@@ -136,8 +132,6 @@ const struct rho_initiator *rho_node_windows_newest(const struct rho_node *node)
 /* The window of this sensor, added where it is new; NULL where there is no room for it. */
 struct rho_initiator *rho_node_windows_add(struct rho_node *node, int32_t sensor_id);
 
-/* ---- node_commands.c ---- */
-
 /* Queues an operator's command or setting, or counts it; 0 where the channel is another one. */
 int rho_node_commands_take(struct rho_node *node, const char *channel, const uint8_t *data,
                            size_t size, int64_t now_us);
@@ -145,10 +139,10 @@ int rho_node_commands_take(struct rho_node *node, const char *channel, const uin
 /* Runs the commands that wait, after a step; its report shows what they change. */
 void rho_node_commands_run(struct rho_node *node);
 
-/* Answers that are published are dropped; the others become messages. */
-void rho_node_answers_drop(struct rho_node *node);
-void rho_node_answers_show(struct rho_node *node);
-unsigned rho_node_answers_count(const struct rho_node *node);
+/* node_commands.c: answers that are published are dropped; the others become messages. */
+void node_answers_drop(struct rho_node *node);
+void node_answers_show(struct rho_node *node);
+unsigned node_answers_count(const struct rho_node *node);
 
 /* Refuses commands that came before that time, as what the operator saw has changed. */
 void rho_node_commands_refuse(struct rho_node *node, int64_t before_us);

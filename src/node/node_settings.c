@@ -10,10 +10,8 @@ static int is_same(float a, float b)
 }
 
 /* A value of a description that equals the setting follows it. */
-static float followed(float value, float before, float now)
-{
-    return is_same(value, before) ? now : value;
-}
+#define FOLLOW(part, value)                                                                        \
+    (part)->value = is_same((part)->value, before->value) ? now->value : (part)->value
 
 /*
  * The description as it follows changed settings. A range that it does not state follows where the
@@ -24,29 +22,23 @@ static void follow_settings(struct rho_scan_assembler_sensor *known,
 {
     struct rho_sensor *sensor = &known->sensor;
     struct rho_scan_assembler_noise *noise = &known->noise;
-
-    sensor->pd = followed(sensor->pd, before->pd, now->pd);
-    sensor->range_min_m = followed(sensor->range_min_m, before->range_min_m, now->range_min_m);
+    FOLLOW(sensor, pd);
+    FOLLOW(sensor, range_min_m);
     if (!is_same(before->range_max_m, now->range_max_m) && sensor->range_max_m >= RANGE_UNKNOWN_M) {
         sensor->range_max_m = now->range_max_m;
     }
-    sensor->range_max_m = followed(sensor->range_max_m, before->range_max_m, now->range_max_m);
-    noise->sigma_range_m =
-        followed(noise->sigma_range_m, before->sigma_range_m, now->sigma_range_m);
-    noise->sigma_azimuth_rad =
-        followed(noise->sigma_azimuth_rad, before->sigma_azimuth_rad, now->sigma_azimuth_rad);
-    noise->sigma_elevation_rad =
-        followed(noise->sigma_elevation_rad, before->sigma_elevation_rad, now->sigma_elevation_rad);
-    noise->sigma_range_rate_mps = followed(noise->sigma_range_rate_mps,
-                                           before->sigma_range_rate_mps, now->sigma_range_rate_mps);
-    noise->sigma_rad = followed(noise->sigma_rad, before->sigma_rad, now->sigma_rad);
+    FOLLOW(sensor, range_max_m);
+    FOLLOW(noise, sigma_range_m);
+    FOLLOW(noise, sigma_azimuth_rad);
+    FOLLOW(noise, sigma_elevation_rad);
+    FOLLOW(noise, sigma_range_rate_mps);
+    FOLLOW(noise, sigma_rad);
 }
 
 static int has_usable_ranges(const struct rho_node *node, const struct rho_settings *settings)
 {
     for (unsigned i = 0; i < node->assembler.num_known; i++) {
         struct rho_scan_assembler_sensor known = node->assembler.known[i];
-
         follow_settings(&known, &node->settings, settings);
         if (!(known.sensor.range_min_m < known.sensor.range_max_m)) {
             return 0;
@@ -58,13 +50,9 @@ static int has_usable_ranges(const struct rho_node *node, const struct rho_setti
 enum rho_status rho_node_set_settings(struct rho_node *node, const struct rho_settings *settings)
 {
     struct rho_node_config config;
-    enum rho_status status;
-
-    if (!node || !settings) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
+    enum rho_status status = node_check(node, settings);
+    if (status != RHO_OK) {
+        return status;
     }
     if (rho_settings_check(settings, NULL) != RHO_OK || !has_usable_ranges(node, settings)) {
         return RHO_ERROR_CONFIG;

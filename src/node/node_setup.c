@@ -2,20 +2,15 @@
 /* node_setup: configurations of a node's parts, their start, restart and change. */
 #include <string.h>
 
+#include "../settings/policy.h"
 #include "node_parts.h"
 #include "rhotrack/body.h"
-
-/* Span of the cells of rho over range_max_m: range_max_m either way, and room for the sensors. */
-#define PASSIVE_SPAN 2.56f
-#define PASSIVE_RANGE_MIN_M 1000.0f
-#define PASSIVE_RANGE_MAX_M 500000.0f
 
 static void set_paper_defaults(struct rho_node_config *config, const struct rho_settings *settings)
 {
     struct rho_hough_config *hough = &config->paper_starts.hough;
     struct rho_passive_paper_config *passive = &config->passive_paper;
     const float cell_m = 2.0f * settings->range_max_m / (float)(RHO_MAX_RHO_CELLS - 2);
-
     rho_paper_starts_config_default(&config->paper_starts, RHO_HOUGH_NHT_C);
     hough->v_min_mps = settings->v_min_mps;
     hough->v_max_mps = settings->v_max_mps;
@@ -27,10 +22,7 @@ static void set_paper_defaults(struct rho_node_config *config, const struct rho_
     hough->rho_max_m = 0.5f * (float)(RHO_MAX_RHO_CELLS - 1) * hough->rho_cell_m;
     if (RHO_NODE_HAS_BEARINGS) {
         rho_passive_paper_config_default(passive);
-        passive->range_max_m = settings->range_max_m < PASSIVE_RANGE_MIN_M ? PASSIVE_RANGE_MIN_M
-                               : settings->range_max_m > PASSIVE_RANGE_MAX_M
-                                   ? PASSIVE_RANGE_MAX_M
-                                   : settings->range_max_m;
+        passive->range_max_m = config->passive.range_max_m; /* the range of both searches */
         passive->rho_cell_m = PASSIVE_SPAN * passive->range_max_m / (float)RHO_PAPER_RHO_CELLS;
     }
 }
@@ -59,7 +51,7 @@ void rho_node_config_default(struct rho_node_config *config, const struct rho_se
         rho_passive_config_default(&config->passive);
     }
     rho_settings_apply(settings, &config->tracker, RHO_SEARCHES ? &config->initiator : NULL,
-                       RHO_NODE_HAS_PASSIVE ? &config->passive : NULL);
+                       RHO_NODE_HAS_BEARINGS ? &config->passive : NULL);
     if (RHO_NODE_HAS_BEARINGS) {
         rho_frames_config_default(&config->frames);
         config->passive_range_max_m = settings->range_max_m;
@@ -70,13 +62,10 @@ void rho_node_config_default(struct rho_node_config *config, const struct rho_se
     }
 }
 
-/* ---- Start ---- */
-
 static enum rho_status init_bearings(struct rho_node *node, const struct rho_node_config *config)
 {
     enum rho_status status =
         rho_frames_init(NODE_FRAMES(node), sizeof *NODE_FRAMES(node), &config->frames);
-
     node->options.is_bearings_by_paper = config->options.is_bearings_by_paper;
     node->passive_range_max_m = config->passive_range_max_m;
     node->frame_due_us = INT64_MAX;
@@ -95,7 +84,6 @@ static enum rho_status init_tracking(struct rho_node *node, const struct rho_nod
 {
     enum rho_status status =
         rho_tracker_init(&node->tracker, sizeof node->tracker, &config->tracker);
-
     if (RHO_BODIES && status == RHO_OK) {
         status = rho_tracker_set_body_max(&node->tracker, config->body_max_m);
     }
@@ -127,13 +115,9 @@ static int has_unknown_parts(const struct rho_node_config *config)
 
 enum rho_status rho_node_configure(struct rho_node *node, const struct rho_node_config *config)
 {
-    enum rho_status status;
-
-    if (!node || !config) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
+    enum rho_status status = node_check(node, config);
+    if (status != RHO_OK) {
+        return status;
     }
     memset(&node->item, 0, offsetof(struct rho_node, report) - offsetof(struct rho_node, item));
     node->epoch = config->epoch;
@@ -157,13 +141,9 @@ enum rho_status rho_node_configure(struct rho_node *node, const struct rho_node_
 enum rho_status rho_node_configure_bearings(struct rho_node *node,
                                             const struct rho_node_config *config)
 {
-    if (!node || !config) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
-    }
-    return !RHO_NODE_HAS_BEARINGS      ? RHO_ERROR_TYPE
+    const enum rho_status status = node_check(node, config);
+    return status != RHO_OK            ? status
+           : !RHO_NODE_HAS_BEARINGS    ? RHO_ERROR_TYPE
            : has_unknown_parts(config) ? RHO_ERROR_CONFIG
                                        : init_bearings(node, config);
 }
@@ -173,7 +153,6 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
 {
     struct rho_node_config config;
     enum rho_status status = RHO_OK;
-
     if (!node || !settings) {
         return RHO_ERROR_NULL;
     }
@@ -197,16 +176,11 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
 
 enum rho_status rho_node_add_zone(struct rho_node *node, const struct rho_zone *zone)
 {
-    if (!node) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
-    }
-    return RHO_MAX_ZONES > 0 ? rho_zones_add(NODE_ZONES(node), zone) : RHO_ERROR_CAPACITY;
+    const enum rho_status status = node_check(node, node);
+    return status != RHO_OK    ? status
+           : RHO_MAX_ZONES > 0 ? rho_zones_add(NODE_ZONES(node), zone)
+                               : RHO_ERROR_CAPACITY;
 }
-
-/* ---- Restart ---- */
 
 /* The configurations were taken before: no init can refuse them. */
 void rho_node_restart(struct rho_node *node)
@@ -218,24 +192,17 @@ void rho_node_restart(struct rho_node *node)
     if (rho_node_is_plots_by_paper(node)) {
         struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
         const struct rho_paper_starts_config config = starts->config;
-
         (void)!rho_paper_starts_init(starts, sizeof *starts, &config);
     }
     rho_node_frames_restart(node);
     node->epoch = node->epoch == INT32_MAX ? 0 : node->epoch + 1;
 }
 
-/* ---- Change ---- */
-
 enum rho_status rho_node_reconfigure(struct rho_node *node, const struct rho_node_config *config)
 {
-    enum rho_status status;
-
-    if (!node || !config) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
+    enum rho_status status = node_check(node, config);
+    if (status != RHO_OK) {
+        return status;
     }
     status = rho_tracker_reconfigure(&node->tracker, &config->tracker);
     for (unsigned i = 0; rho_node_window(node, i) && status == RHO_OK; i++) {

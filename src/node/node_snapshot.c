@@ -21,8 +21,7 @@ static int32_t sharing_code(const struct rho_node *node)
 unsigned rho_node_list_parts(struct rho_node *node, struct rho_snapshot_part *parts)
 {
     unsigned count = 0;
-
-    if (!rho_node_is_ready(node) || !parts) {
+    if (!node_is_ready(node) || !parts) {
         return 0;
     }
     parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, sharing_code(node),
@@ -47,8 +46,6 @@ unsigned rho_node_list_parts(struct rho_node *node, struct rho_snapshot_part *pa
     return count;
 }
 
-/* ---- Load ---- */
-
 /* An image and the parts that it has. */
 struct saved {
     const uint8_t *image;
@@ -60,7 +57,6 @@ static enum rho_status list_image(struct saved *saved, const void *image, size_t
 {
     enum rho_status status =
         rho_snapshot_list(image, size, saved->parts, RHO_NODE_PARTS, &saved->num_parts);
-
     saved->image = image;
     return status == RHO_OK && saved->num_parts > RHO_NODE_PARTS ? RHO_ERROR_CONFIG : status;
 }
@@ -87,7 +83,6 @@ enum rho_status rho_node_saved_settings(const void *image, size_t size,
     struct saved saved;
     const struct rho_settings *now;
     enum rho_status status;
-
     if (!settings) {
         return RHO_ERROR_NULL;
     }
@@ -106,7 +101,6 @@ enum rho_status rho_node_saved_settings(const void *image, size_t size,
 static enum rho_status add_saved_windows(struct rho_node *node, const struct saved *saved)
 {
     const int32_t sharing = saved->num_parts > 0 ? saved->parts[0].id : OF_NOBODY;
-
     if (RHO_SEARCHES) {
         (void)!rho_node_windows_init(node, &NODE_INITIATOR(node)->config);
     }
@@ -138,25 +132,22 @@ static int has_same_parts(const struct saved *saved, const struct rho_snapshot_p
 static int has_same_configs(const struct saved *saved, const struct rho_snapshot_part *own)
 {
     int is_same = 1;
-
     for (unsigned i = 0; i < saved->num_parts && is_same; i++) {
-        const void *object = object_of(saved, i);
-
+        const uint8_t *one = object_of(saved, i), *other = own[i].object;
+        size_t at = 0, size = 0; /* of the configuration in the object */
         if (own[i].kind == RHO_SNAPSHOT_TRACKER) {
-            const struct rho_tracker *one = object, *other = own[i].object;
-
-            is_same = memcmp(&one->config, &other->config, sizeof one->config) == 0;
+            at = offsetof(struct rho_tracker, config);
+            size = sizeof(struct rho_tracker_config);
         } else if (own[i].kind == RHO_SNAPSHOT_INITIATOR) {
-            const struct rho_initiator *one = object, *other = own[i].object;
-
-            is_same = memcmp(&one->config, &other->config, sizeof one->config) == 0;
+            at = offsetof(struct rho_initiator, config);
+            size = sizeof(struct rho_initiator_config);
         } else if (own[i].kind == RHO_SNAPSHOT_PASSIVE) {
-            const struct rho_passive *one = object, *other = own[i].object;
-
-            is_same = memcmp(&one->config, &other->config, sizeof one->config) == 0;
+            at = offsetof(struct rho_passive, config);
+            size = sizeof(struct rho_passive_config);
         } else if (own[i].kind == RHO_SNAPSHOT_SETTINGS) {
-            is_same = memcmp(object, own[i].object, sizeof(struct rho_settings)) == 0;
+            size = sizeof(struct rho_settings);
         }
+        is_same = memcmp(one + at, other + at, size) == 0;
     }
     return is_same;
 }
@@ -167,7 +158,6 @@ static enum rho_status load_alike(struct rho_node *node, const struct saved *sav
     struct rho_snapshot_part own[RHO_NODE_PARTS];
     enum rho_status status = add_saved_windows(node, saved);
     const unsigned num_own = rho_node_list_parts(node, own);
-
     if (status != RHO_OK) {
         return status;
     }
@@ -182,15 +172,10 @@ enum rho_status rho_node_load(struct rho_node *node, const void *image, size_t s
     struct saved saved;
     struct rho_settings before;
     const struct rho_settings *now;
-    enum rho_status status;
-
-    if (!node || !image) {
-        return RHO_ERROR_NULL;
+    enum rho_status status = node_check(node, image);
+    if (status == RHO_OK) {
+        status = list_image(&saved, image, size);
     }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
-    }
-    status = list_image(&saved, image, size);
     if (status != RHO_OK) {
         return status;
     }

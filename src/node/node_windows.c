@@ -30,9 +30,9 @@ struct rho_initiator *rho_node_window(struct rho_node *node, unsigned place)
 
 const struct rho_initiator *rho_node_windows_newest(const struct rho_node *node)
 {
-    const unsigned place = node->windows.newest;
-
-    return RHO_MAX_WINDOWS > 1 && place > 0 ? node->windows.more[place - 1] : NODE_INITIATOR(node);
+    return RHO_MAX_WINDOWS > 1 && node->windows.newest > 0
+               ? node->windows.more[node->windows.newest - 1]
+               : NODE_INITIATOR(node);
 }
 
 size_t rho_node_storage_size(unsigned num_windows)
@@ -51,12 +51,9 @@ int rho_node_wants_storage(const struct rho_node *node)
 enum rho_status rho_node_add_storage(struct rho_node *node, void *memory, size_t size)
 {
     struct rho_initiator *first = memory;
-
-    if (!node || !memory) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_node_is_ready(node)) {
-        return RHO_ERROR_STATE;
+    const enum rho_status status = node_check(node, memory);
+    if (status != RHO_OK) {
+        return status;
     }
     if ((uintptr_t)memory % sizeof(int64_t) != 0) {
         return RHO_ERROR_VALUE;
@@ -90,8 +87,6 @@ enum rho_status rho_node_windows_init(struct rho_node *node,
                : RHO_OK;
 }
 
-/* ---- Which radars share a window ---- */
-
 /* Interval between a sensor's scans; 0: not known yet. */
 static float scan_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
 {
@@ -101,11 +96,6 @@ static float scan_interval_s(const struct rho_tracker *tracker, int32_t sensor_i
         }
     }
     return 0.0f;
-}
-
-static int is_circle(float from_rad, float to_rad)
-{
-    return rho_angle_is_circle(from_rad, to_rad);
 }
 
 static int are_alike(const struct rho_tracker *tracker, const struct rho_sensor *one,
@@ -118,9 +108,8 @@ static int are_alike(const struct rho_tracker *tracker, const struct rho_sensor 
     const float one_s = scan_interval_s(tracker, one->sensor_id);
     const float other_s = scan_interval_s(tracker, other->sensor_id);
     const int is_known = one_s > 0.0f && other_s > 0.0f;
-
-    return is_circle(one->sector_from_rad, one->sector_to_rad) &&
-           is_circle(other->sector_from_rad, other->sector_to_rad) &&
+    return rho_angle_is_circle(one->sector_from_rad, one->sector_to_rad) &&
+           rho_angle_is_circle(other->sector_from_rad, other->sector_to_rad) &&
            apart_m + (longer_m - shorter_m) <= APART_MAX * shorter_m &&
            (!is_known || rho_larger(one_s, other_s) <= turns_max * rho_smaller(one_s, other_s));
 }
@@ -155,16 +144,13 @@ static int32_t sensor_of_window(const struct rho_node *node, const struct rho_sc
 {
     const struct rho_tracker *tracker = &node->tracker;
     uint8_t is_paired[RHO_MAX_SENSORS] = {0};
-
-    if (!is_circle(scan->sector_from_rad, scan->sector_to_rad)) {
+    if (!rho_angle_is_circle(scan->sector_from_rad, scan->sector_to_rad)) {
         return scan->sensor_id;
     }
     for (unsigned i = 0; i < tracker->num_sensors; i++) {
         const struct rho_sensor *one = &tracker->sensors[i].sensor;
-
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
             const struct rho_sensor *other = &tracker->sensors[j].sensor;
-
             is_paired[i] =
                 !is_paired[j] && may_share(node, one->sensor_id, is_live) &&
                 may_share(node, other->sensor_id, is_live) &&
@@ -179,8 +165,6 @@ static int32_t sensor_of_window(const struct rho_node *node, const struct rho_sc
     return scan->sensor_id;
 }
 
-/* ---- Windows of sensors ---- */
-
 /* Pushes a held scan into another window; plots that started tracks are marked as claimed. */
 static void copy_held_scan(struct rho_node *node, struct rho_initiator *to,
                            const struct rho_window_scan *held)
@@ -188,7 +172,6 @@ static void copy_held_scan(struct rho_node *node, struct rho_initiator *to,
     struct rho_plot *plots = NODE_UNPACKED(node);
     uint8_t *fates = NODE_FATES(node);
     uint32_t left_unused = 0;
-
     for (unsigned i = 0; i < held->num_plots; i++) {
         plots[i] = rho_window_unpack_plot(held, i);
         fates[i] = held->marks[i] & RHO_WINDOW_INITIATED ? RHO_FATE_CLAIMED : RHO_FATE_HELD;
@@ -209,10 +192,8 @@ static void copy_shared_scans(struct rho_node *node, struct rho_initiator *to, i
 {
     for (unsigned i = 0; RHO_SEARCHES && RHO_MAX_WINDOWS > 1 && i + 1u < node->windows.count; i++) {
         struct rho_window *shared = &window_at(node, i)->window;
-
         for (unsigned m = 0; m < shared->num_scans; m++) {
             const struct rho_window_scan *held = rho_window_scan_at(shared, m);
-
             if (held->sensor.sensor_id == sensor_id) {
                 copy_held_scan(node, to, held);
             }
@@ -225,7 +206,6 @@ static unsigned place_of(struct rho_node *node, int32_t sensor_id)
 {
     struct rho_node_window_list *windows = &node->windows;
     unsigned place = 0;
-
     if (!windows->has_sensor) {
         windows->has_sensor = 1;
         windows->sensor_id[0] = sensor_id;
@@ -240,7 +220,6 @@ struct rho_initiator *rho_node_windows_add(struct rho_node *node, int32_t sensor
 {
     struct rho_node_window_list *windows = &node->windows;
     const unsigned place = place_of(node, sensor_id);
-
     if (place == windows->count) {
         if (place == windows->num_places ||
             rho_initiator_init(window_at(node, place), sizeof *NODE_INITIATOR(node),
@@ -261,7 +240,6 @@ struct rho_initiator *rho_node_windows_find(struct rho_node *node, const struct 
     struct rho_node_window_list *windows = &node->windows;
     struct rho_initiator *window = NODE_INITIATOR(node);
     int32_t sensor_id = scan->sensor_id;
-
     if (RHO_MAX_WINDOWS > 1 && node->options.windows != RHO_NODE_ONE) {
         if (node->options.windows == RHO_NODE_PAIRS) {
             sensor_id = sensor_of_window(node, scan, is_live);

@@ -192,19 +192,17 @@ static int is_object_sound(uint32_t kind, const void *object)
 {
     switch (kind) {
     case RHO_SNAPSHOT_TRACKER:
-        return rho_tracker_is_sound((const struct rho_tracker *)object);
+        return rho_tracker_is_sound(object);
     case RHO_SNAPSHOT_INITIATOR:
-        return rho_initiator_is_sound((const struct rho_initiator *)object);
+        return rho_initiator_is_sound(object);
     case RHO_SNAPSHOT_PASSIVE:
-        return rho_passive_is_sound((const struct rho_passive *)object);
+        return rho_passive_is_sound(object);
     case RHO_SNAPSHOT_SETTINGS:
-        return rho_settings_check((const struct rho_settings *)object, 0) == RHO_OK;
+        return rho_settings_check(object, 0) == RHO_OK;
     case RHO_SNAPSHOT_CLUTTER_MAP:
-        return RHO_MAX_ECHOES > 0 &&
-               rho_clutter_map_is_sound((const struct rho_clutter_map *)object);
+        return RHO_MAX_ECHOES > 0 && rho_clutter_map_is_sound(object);
     case RHO_SNAPSHOT_REFLECTORS:
-        return RHO_MAX_REFLECTORS > 0 &&
-               rho_reflector_learning_is_sound((const struct rho_reflector_learning *)object);
+        return RHO_MAX_REFLECTORS > 0 && rho_reflector_learning_is_sound(object);
     default:
         return 0;
     }
@@ -236,11 +234,7 @@ static enum rho_status check_parts(const struct rho_snapshot_part *parts, unsign
 
 static size_t image_size(const struct rho_snapshot_part *parts, unsigned num_parts)
 {
-    size_t size = HEADER_BYTES + (size_t)num_parts * PART_BYTES + END_BYTES;
-    for (unsigned i = 0; i < num_parts; i++) {
-        size += parts[i].size + padding_of(parts[i].size);
-    }
-    return size;
+    return rho_snapshot_offset(parts, num_parts, num_parts) + END_BYTES;
 }
 
 size_t rho_snapshot_size(const struct rho_snapshot_part *parts, unsigned num_parts)
@@ -445,14 +439,13 @@ enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigne
     }
     /* all objects are checked before any part is changed */
     for (int is_copy = 0; is_copy < 2; is_copy++) {
-        const uint8_t *object = bytes + HEADER_BYTES + (size_t)num_parts * PART_BYTES;
         for (unsigned i = 0; i < num_parts; i++) {
+            const uint8_t *object = bytes + rho_snapshot_offset(parts, num_parts, i);
             if (is_copy) {
                 memcpy(parts[i].object, object, parts[i].size);
             } else if (!is_object_sound((uint32_t)parts[i].kind, object)) {
                 return RHO_ERROR_VALUE;
             }
-            object += parts[i].size + padding_of(parts[i].size);
         }
     }
     return RHO_OK;
@@ -489,16 +482,15 @@ static enum rho_status compare_header(const struct rho_snapshot_loader *loader,
 /* Copies the bytes of a piece of an image that belong to objects. */
 static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *bytes, size_t size)
 {
-    size_t first = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
     for (unsigned i = 0; i < loader->num_parts; i++) {
         const struct rho_snapshot_part *part = &loader->parts[i];
+        const size_t first = rho_snapshot_offset(loader->parts, loader->num_parts, i);
         const size_t from = first > loader->at ? first : loader->at;
         const size_t end = smaller_size(first + part->size, loader->at + size);
         if (from < end) {
             memcpy((uint8_t *)part->object + (from - first), bytes + (from - loader->at),
                    end - from);
         }
-        first += part->size + padding_of(part->size);
     }
 }
 
@@ -544,7 +536,7 @@ enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader, const uint
         return RHO_ERROR_STATE;
     }
     const size_t all = image_size(loader->parts, loader->num_parts);
-    const size_t head = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
+    const size_t head = rho_snapshot_offset(loader->parts, loader->num_parts, 0);
     const size_t taken = smaller_size(size, all - loader->at);
     if (loader->passes == 0 && loader->at < head) {
         status = compare_header(loader, bytes, smaller_size(taken, head - loader->at));

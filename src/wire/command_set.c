@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * command_set: sets one parameter by an operator's setting message, and fills the answer.
- */
+/* command_set: sets one parameter by an operator's setting message, and fills the answer. */
 #include <string.h>
 
 #include "rhotrack/command.h"

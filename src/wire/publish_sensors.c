@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * publish_sensors: messages of the state of each sensor: reception, clock, and
- * sensor health.
- */
+/* publish_sensors: messages of the state of each sensor: reception, clock, and sensor health. */
 #include "message_clamps.h"
 #include "rhotrack/publish.h"
 

@@ -12,11 +12,6 @@ enum { MAGIC = 0x66656564, SECOND_US = 1000000, PER_S_MAX = 1000000 };
 typedef char rho_scan_assembler_fits_its_formula
     [sizeof(struct rho_scan_assembler) <= RHO_RAM_SCAN_ASSEMBLER_BYTES ? 1 : -1];
 
-static int is_initialised(const struct rho_scan_assembler *assembler)
-{
-    return assembler->magic == MAGIC;
-}
-
 /* Configuration */
 
 static int is_sigma_in_limits(float sigma)
@@ -93,7 +88,7 @@ enum rho_status rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembl
     if (!assembler || !sensor) {
         return RHO_ERROR_NULL;
     }
-    if (!is_initialised(assembler)) {
+    if (assembler->magic != MAGIC) {
         return RHO_ERROR_STATE;
     }
     if (!is_usable_sensor(sensor)) {
@@ -343,7 +338,7 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
     if (!assembler || !channel || !data) {
         return RHO_ERROR_NULL;
     }
-    if (!is_initialised(assembler)) {
+    if (assembler->magic != MAGIC) {
         return RHO_ERROR_STATE;
     }
     if (!parse_channel(channel, &kind, &sensor_id)) {
@@ -409,7 +404,7 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
 int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
                             struct rho_scan_assembler_item *item)
 {
-    if (!assembler || !item || !is_initialised(assembler)) {
+    if (!assembler || !item || assembler->magic != MAGIC) {
         return 0;
     }
     struct rho_scan_assembler_slot *slot = rho_slot_in_state(assembler, SLOT_GIVEN);
@@ -435,7 +430,7 @@ int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us
 int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler)
 {
     int64_t due_us = INT64_MAX;
-    if (!assembler || !is_initialised(assembler)) {
+    if (!assembler || assembler->magic != MAGIC) {
         return due_us;
     }
     const int64_t hold_us = assembler->config.hold_us;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * show_ghosts: messages of the newest frame's ghost matrices, one matrix
- * for each sensor pair.
- */
+/* show_ghosts: messages of the newest frame's ghost matrices, one matrix for each sensor pair. */
 #include "message_clamps.h"
 #include "show_writers.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * show_rates: sends ghosts, votes and hypotheses of a step as messages,
- * each kind within its rate.
+ * show_rates: sends ghosts, votes and hypotheses of a step as messages, each kind within its rate.
  */
 #include "rhotrack/publish.h"
 

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * zones: counts the tracks that enter, stay in and leave polygons on the ground.
- */
+/* zones: counts the tracks that enter, stay in and leave polygons on the ground. */
 #include "rhotrack/zones.h"
 
 #include <string.h>
