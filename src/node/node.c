@@ -214,7 +214,7 @@ static enum rho_node_due do_next(struct rho_node *node, int64_t now_us)
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)
 {
     enum rho_node_due done = RHO_NODE_NOTHING;
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return RHO_NODE_NOTHING;
     }
     if (now_us != INT64_MAX) {
@@ -241,7 +241,7 @@ enum rho_status rho_node_take(struct rho_node *node, const char *channel, const 
                               size_t size, int64_t now_us)
 {
     enum rho_status status;
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     if (RHO_MAX_COMMANDS > 0 && rho_node_commands_take(node, channel, data, size, now_us)) {
@@ -256,7 +256,7 @@ enum rho_status rho_node_take(struct rho_node *node, const char *channel, const 
 int64_t rho_node_due_us(const struct rho_node *node)
 {
     int64_t due_us = INT64_MAX;
-    if (node_is_ready(node)) {
+    if (rho_node_is_ready(node)) {
         due_us = rho_scan_assembler_due_us(&node->assembler);
         due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
     }

@@ -64,13 +64,13 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
 enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan *scan)
 {
     const enum rho_status status = node_check(node, scan);
-    return status == RHO_OK ? node_chain_scan(node, scan, 0) : status;
+    return status == RHO_OK ? rho_node_chain_scan(node, scan, 0) : status;
 }
 
 enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_frame *frame)
 {
     const enum rho_status status = node_check(node, frame);
     return status != RHO_OK        ? status
-           : RHO_NODE_HAS_BEARINGS ? node_chain_frame(node, frame)
+           : RHO_NODE_HAS_BEARINGS ? rho_node_chain_frame(node, frame)
                                    : RHO_ERROR_TYPE;
 }

@@ -7,7 +7,7 @@
 
 #define COMMAND_IS_LATE RHO_ERROR_STATE
 
-void node_answers_drop(struct rho_node *node)
+void rho_node_answers_drop(struct rho_node *node)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
     if (RHO_MAX_COMMANDS > 0 && operated->num_shown > 0) {

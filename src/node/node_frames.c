@@ -126,7 +126,7 @@ static void set_due_time(struct rho_node *node, int64_t now_us)
 {
     int64_t hold_us = node->assembler.config.hold_us;
     int64_t wait_us = hold_us + NODE_FRAMES(node)->config.tolerance_us;
-    node->frame_due_us = node_frames_open(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
+    node->frame_due_us = rho_node_frames_open(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
                              ? now_us + wait_us
                              : INT64_MAX;
 }

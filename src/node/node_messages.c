@@ -22,7 +22,7 @@ static unsigned num_events(const struct rho_node *node)
 uint16_t rho_node_num_messages(const struct rho_node *node)
 {
     unsigned num = 0;
-    if (node_is_ready(node)) {
+    if (rho_node_is_ready(node)) {
         num = num_answers(node);
         if (node->done == RHO_NODE_SCAN || node->done == RHO_NODE_FRAME) {
             num += rho_publish_num_parts(&node->report) + 1u + num_bodies(node) + num_events(node);
@@ -74,8 +74,9 @@ static enum rho_status publish_peaks(const struct rho_node *node, uint8_t *buffe
     const struct rho_initiator *initiator =
         RHO_SEARCHES && !is_frame ? rho_node_windows_newest(node) : NULL;
     const struct rho_passive *passive =
-        RHO_NODE_HAS_PASSIVE && is_frame && !node_is_bearings_by_paper(node) ? NODE_PASSIVE(node)
-                                                                             : NULL;
+        RHO_NODE_HAS_PASSIVE && is_frame && !rho_node_is_bearings_by_paper(node)
+            ? NODE_PASSIVE(node)
+            : NULL;
     return rho_publish_peaks(initiator, passive, node->report.time_us, node->step, buffer, capacity,
                              size);
 }
@@ -84,7 +85,7 @@ enum rho_status rho_node_publish(const struct rho_node *node, uint16_t part, uin
                                  size_t capacity, size_t *size)
 {
     unsigned of = part, peaks;
-    if (!node_is_ready(node)) {
+    if (!rho_node_is_ready(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     if (part >= rho_node_num_messages(node)) {

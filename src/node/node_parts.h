@@ -75,7 +75,7 @@ static inline int rho_node_is_ready(const struct rho_node *node)
 /* Errors of a call with a node and what it is given: NULL, STATE (not initialised). */
 static inline enum rho_status node_check(const struct rho_node *node, const void *given)
 {
-    return !node || !given ? RHO_ERROR_NULL : !node_is_ready(node) ? RHO_ERROR_STATE : RHO_OK;
+    return !node || !given ? RHO_ERROR_NULL : !rho_node_is_ready(node) ? RHO_ERROR_STATE : RHO_OK;
 }
 
 /* 1 where the papers' methods start tracks, from plots or from bearings. */
@@ -90,7 +90,7 @@ static inline int rho_node_is_bearings_by_paper(const struct rho_node *node)
 }
 
 /* node_setup.c: begins anew on another clock (node.h). Frames stay. */
-void node_restart(struct rho_node *node);
+void rho_node_restart(struct rho_node *node);
 
 /* Empties frames and their sensors, but keeps the counters; the first frame waits for all. */
 void rho_node_frames_reset(struct rho_node *node);
@@ -140,9 +140,9 @@ int rho_node_commands_take(struct rho_node *node, const char *channel, const uin
 void rho_node_commands_run(struct rho_node *node);
 
 /* node_commands.c: answers that are published are dropped; the others become messages. */
-void node_answers_drop(struct rho_node *node);
-void node_answers_show(struct rho_node *node);
-unsigned node_answers_count(const struct rho_node *node);
+void rho_node_answers_drop(struct rho_node *node);
+void rho_node_answers_show(struct rho_node *node);
+unsigned rho_node_answers_count(const struct rho_node *node);
 
 /* Refuses commands that came before that time, as what the operator saw has changed. */
 void rho_node_commands_refuse(struct rho_node *node, int64_t before_us);

@@ -21,7 +21,7 @@ static void forget_silent_sensors(struct rho_node *node)
     struct rho_tracker *tracker = &node->tracker;
     for (unsigned i = tracker->num_sensors; i-- > 0;) {
         int32_t sensor_id = tracker->sensors[i].sensor.sensor_id;
-        if (!node_sensor_is_heard(node, sensor_id) &&
+        if (!rho_node_sensor_is_heard(node, sensor_id) &&
             rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
             node->counters.sensors_forgotten = rho_count(node->counters.sensors_forgotten, 1);
         }

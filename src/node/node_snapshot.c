@@ -21,7 +21,7 @@ static int32_t sharing_code(const struct rho_node *node)
 unsigned rho_node_list_parts(struct rho_node *node, struct rho_snapshot_part *parts)
 {
     unsigned count = 0;
-    if (!node_is_ready(node) || !parts) {
+    if (!rho_node_is_ready(node) || !parts) {
         return 0;
     }
     parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, sharing_code(node),

@@ -73,6 +73,12 @@ static inline float rho_smaller(float a, float b)
     return a < b ? a : b;
 }
 
+/* A number without its sign; -0 and NaN stay. No stack. */
+static inline float rho_magnitude(float v)
+{
+    return v < 0.0f ? -v : v;
+}
+
 static inline float rho_square(float v)
 {
     return v * v;
@@ -84,9 +90,7 @@ static inline int rho_cell_at(float place, int n)
     return place > 0.0f ? place < (float)n ? (int)place : n - 1 : 0;
 }
 
-/*
- * Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 1e-7.
- */
+/* Sine and cosine of an angle, |angle_rad| <= 100, NaN beyond. Absolute error <= 1e-7. */
 float rho_sin(float angle_rad);
 float rho_cos(float angle_rad);
 
