@@ -307,7 +307,7 @@ static void make_group_plot(const struct rho_look *look, unsigned group, struct 
 void rho_bodies_group(struct step *step)
 {
     struct rho_look *look = &step->look;
-    struct rho_scan *grouped = &step->grouped;
+    struct rho_scan *grouped = step->grouped;
     step->whole = look->scan;
     struct rho_groups *groups = &step->tracker->bodies.groups;
     rho_bodies_align(step->tracker);

@@ -26,6 +26,9 @@ void rho_step_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_look *look = &step->look;
+    if (look->scan) {
+        rho_removal_of_duplicates(step);
+    }
     const struct rho_track_limits limits = rho_life_limits(look);
     rho_evidence_update(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {

@@ -159,7 +159,7 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
     rho_clutter_smooth_mean(&tracker->unclaimed_bearings, unclaimed);
 }
 
-/* Claims and updates look by look: the bearings of a sensor meet the gates that those before left. */
+/* Claims and updates look by look: each sensor meets the gates that those before it left. */
 void rho_step_take_frame(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;

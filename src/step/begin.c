@@ -45,7 +45,7 @@ int rho_step_begin(struct step *step)
      * An out-of-sequence scan teaches nothing, and may start tracks where it is the newest one of
      * its initiator: a radar that is always late has an initiator of its own.
      */
-    look->teaches = rho_step_is_newest(tracker, look->time_us);
+    look->teaches = (uint8_t)rho_step_is_newest(tracker, look->time_us);
     look->starts =
         look->teaches || (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
     if (!look->teaches && !(RHO_SECTORS && rho_retrodiction_accepts(look))) {

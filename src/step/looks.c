@@ -100,5 +100,4 @@ void rho_step_take_scan(struct step *step)
         rho_step_claim(step->tracker, look, &step->work);
         rho_step_update(step->tracker, look, &step->work);
     }
-    rho_removal_of_duplicates(step);
 }

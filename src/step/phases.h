@@ -28,7 +28,7 @@ void rho_step_predict(struct step *step);
 
 /* looks.c: opens the look of a scan: its sensor with pd, notch and noise */
 void rho_step_open_scan(struct rho_tracker *tracker, struct rho_look *look);
-/* Claims and updates by the scan, in parts if it is large; then ends second tracks. */
+/* Claims and updates by the scan, in parts if it is large. */
 void rho_step_take_scan(struct step *step);
 /* claim.c: gates a look's plots, and assigns them to tracks; changes no track */
 void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);

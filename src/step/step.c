@@ -36,8 +36,10 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
 {
     const enum rho_status status = check_scan(tracker, initiator, scan, report);
     if (status == RHO_OK) {
+        struct rho_scan grouped;
         struct step step = {.tracker = tracker,
                             .report = report,
+                            .grouped = RHO_BODIES ? &grouped : 0,
                             .look = {.tracker = tracker,
                                      .initiator = initiator,
                                      .scan = scan,

@@ -54,17 +54,17 @@ struct rho_look {
     struct rho_initiator *initiator;
     struct rho_track_model model; /* how tracks move to its time, and their filters */
     int64_t time_us;
-    int is_suspect; /* its sensor contradicts the others */
-    uint16_t count; /* count of the sensor's scans; 0: not known */
+    uint16_t count;     /* count of the sensor's scans; 0: not known */
+    uint8_t is_suspect; /* its sensor contradicts the others */
+    /* it changes what is learned, and what tracks remember; 0: it is out of sequence */
+    uint8_t teaches;
+    uint8_t starts;         /* tracks may start from its plots */
+    uint8_t has_more_parts; /* tracks without a plot may find one in a later part of the scan */
     /* its sector continues the previous one: 1 counter-clockwise, -1 clockwise; else 0 */
     float turning;
-    /* it changes what is learned, and what tracks remember; 0: it is out of sequence */
-    int teaches;
-    int starts;          /* tracks may start from its plots */
     uint32_t num_inputs; /* plots or bearings */
     uint32_t num_gated;  /* of these the ones with a place in fates: the first RHO_MAX_PLOTS */
     uint32_t first_row;  /* row in the scan of the first plot of the part that is claimed now */
-    int has_more_parts;  /* tracks without a plot may find one in a later part of the scan */
     /* a later part's own clutter density; and the scan's plots over RHO_MAX_PLOTS, 0: first part */
     float part_per_m2, part_share;
     /* largest noise on any axis, and largest time offset either way, of the valid plots */

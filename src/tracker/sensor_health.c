@@ -117,7 +117,7 @@ static void judge_sensor(struct rho_tracker *tracker, struct rho_look *look)
         health->is_suspect = 1;
         tracker->counters.sensors_suspected = rho_count(tracker->counters.sensors_suspected, 1);
     }
-    look->is_suspect = health->is_suspect;
+    look->is_suspect = (uint8_t)health->is_suspect;
 }
 
 void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look)

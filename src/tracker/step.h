@@ -13,7 +13,7 @@ struct step {
     const struct rho_frame *frame; /* the frame of bearings; NULL: plots */
     struct rho_look look;          /* the look that is claimed now */
     const struct rho_scan *whole;  /* with bodies: the scan whose plots were grouped */
-    struct rho_scan grouped;       /* with bodies: a plot for each group */
+    struct rho_scan *grouped;      /* with bodies: room for a scan of a plot for each group */
     struct rho_work work;
     float needed_nat; /* evidence that a new track needs to be confirmed; 0: none */
     float miss_nat;   /* evidence that a miss takes from a new track */

@@ -66,8 +66,10 @@ static void make_track_with_body(float plots_seen_so_far)
 
 static void group_plots(void)
 {
+    static struct rho_scan grouped;
     scan.num_plots = num_plots;
     at = (struct step){.tracker = &tracker,
+                       .grouped = &grouped,
                        .report = &report,
                        .look = {.tracker = &tracker,
                                 .fates = report.fates,
