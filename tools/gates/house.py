@@ -84,7 +84,7 @@ def calls(name, code):
     return re.findall(rf"\b{name}\s*\(", code)
 
 
-@figure("prototypes in the widest private header of src", 40, 126)
+@figure("prototypes in the widest private header of src", 40)
 def prototypes(tree):
     """Declarations of functions at file level in one src/ROOM/NAME.h; inline functions are none."""
     widest = (0, [])
@@ -99,14 +99,14 @@ def prototypes(tree):
     return widest[1]
 
 
-@figure("functions that may change struct step", 45, 149)
+@figure("functions that may change struct step", 45)
 def step_changers(tree):
     """Functions defined in src with a parameter `struct step *` that is not const."""
     return [f"{path} {name}" for path in tree.files("src/**/*") for _, name, parameters, _ in
             tree.functions(path) if re.search(r"(?<!const )\bstruct step \*(?!const)", parameters)]
 
 
-@figure("`if (` in rho_tracker_step", 3, 13)
+@figure("`if (` in rho_tracker_step", 3)
 def step_conditions(tree):
     """`if (` in the body of rho_tracker_step, those behind an else too."""
     bodies = [body for path in tree.files("src/**/*.c")
@@ -116,14 +116,14 @@ def step_conditions(tree):
     return re.findall(r"\bif \(.*", bodies[0])
 
 
-@figure("arrays [RHO_MAX_SENSORS] in struct rho_tracker", 1, 5)
+@figure("arrays [RHO_MAX_SENSORS] in struct rho_tracker", 1)
 def sensor_tables(tree):
     """Members with `[RHO_MAX_SENSORS]` between the braces of struct rho_tracker."""
     body = tree.body_in("include/rhotrack/**/*.h", r"^struct rho_tracker\b")
     return re.findall(r"[^;]*\[RHO_MAX_SENSORS\][^;]*", body)
 
 
-@figure("files of tracker, step, bodies, walls that know late scans", 6, 21)
+@figure("files of tracker, step, bodies, walls that know late scans", 6)
 def late_files(tree):
     """C files with is_late, late_, _late, retrodict or out_of_sequence in a name of the code; a
     wall's late_ones are witnesses."""
@@ -136,13 +136,13 @@ def long_names(tree, pattern):
                    for _, name, _, _ in tree.functions(path) if len(name) > NAME_LETTERS_MAX})
 
 
-@figure("names over 30 letters, functions of src", 120, 538)
+@figure("names over 30 letters, functions of src", 120)
 def long_names_src(tree):
     """Functions defined in src whose names have more than 30 letters, generated ones too."""
     return long_names(tree, "src/**/*")
 
 
-@figure("names over 30 letters, functions of tools", 80, 280)
+@figure("names over 30 letters, functions of tools", 80)
 def long_names_tools(tree):
     """Functions defined in tools/rhotrack whose names have more than 30 letters."""
     return long_names(tree, "tools/rhotrack/**/*")
@@ -154,19 +154,19 @@ def long_stems(tree, pattern):
                    if len(pathlib.PurePath(path).stem.split("_")) >= STEM_WORDS})
 
 
-@figure("file names of four words and more, src", 10, 53)
+@figure("file names of four words and more, src", 10)
 def long_stems_src(tree):
     """Names of C files, each once and without its ending, with three or more `_`."""
     return long_stems(tree, "src/**/*")
 
 
-@figure("file names of four words and more, tools/rhotrack", 12, 62)
+@figure("file names of four words and more, tools/rhotrack", 12)
 def long_stems_tools(tree):
     """Names of C files, each once and without its ending, with three or more `_`."""
     return long_stems(tree, "tools/rhotrack/**/*")
 
 
-@figure("static functions of src called once, %", 48, 62)
+@figure("static functions of src called once, %", 48)
 def statics_called_once(tree):
     """Static functions of src's .c files that their file calls once, in % of all; rounded."""
     statics, once = 0, []
@@ -181,14 +181,14 @@ def statics_called_once(tree):
     return round(100 * len(once) / max(statics, 1)), once
 
 
-@figure("program files that know the column azimuth_deg", 1, 3)
+@figure("program files that know the column azimuth_deg", 1)
 def azimuth_files(tree):
     """C files of tools/rhotrack with the string \"azimuth_deg\"."""
     return [path for path in tree.files("tools/rhotrack/**/*")
             if '"azimuth_deg"' in tree.code(path, with_strings=True)]
 
 
-@figure("calls of walls' and zones' steps outside src", 0, 3)
+@figure("calls of walls' and zones' steps outside src", 0)
 def outer_steps(tree):
     """Calls in C of tools of functions NAME_step that reflectors.h or zones.h declares;
     tools/instructions measures them and is left out."""
@@ -201,14 +201,14 @@ def outer_steps(tree):
             for name in sorted(names) for _ in calls(name, tree.code(path))]
 
 
-@figure("numeric defines in src", 350, 587)
+@figure("numeric defines in src", 350)
 def numeric_defines(tree):
     """Lines `#define NAME number` of src; the number may begin with signs and parentheses."""
     return [f"{path} {name}" for path in tree.files("src/**/*")
             for name in NUMERIC_DEFINE.findall(tree.text(path))]
 
 
-@figure("lines of src and include", 44000, 49918)
+@figure("lines of src and include", 44000, 44600)
 def lines(tree):
     """Lines of all C files of src and include, the generated ones apart."""
     counts = sorted((tree.text(path).count("\n"), path)
@@ -216,7 +216,7 @@ def lines(tree):
     return sum(count for count, _ in counts), [f"{count:6} {path}" for count, path in counts]
 
 
-@figure("objects that a user of the node owns and initialises", 1, 7)
+@figure("objects that a user of the node owns and initialises", 1)
 def node_objects(tree):
     """The node, and each pointer to a struct that is not const in the settings (third parameter)
     of rho_node_init."""
@@ -228,7 +228,7 @@ def node_objects(tree):
     return ["struct rho_node", *re.findall(r"(?<!const )\bstruct \w+ \*+\w+", body)]
 
 
-@figure("banners and odd comments in headers", 0, 23)
+@figure("banners and odd comments in headers", 0)
 def odd_comments(tree):
     """Comments of headers of include and src that begin with a row of signs, as in `/* ---- name`
     and `/**`, or with `//`."""
