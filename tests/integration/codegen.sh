@@ -219,7 +219,7 @@ int main(int count, char **words)
 END
 status=0
 { ${CC:-gcc} -std=c99 -Os -ffunction-sections -fdata-sections -Wl,--gc-sections -Iinclude \
-    -o "$copy/two" "$copy/two.c" src/wire/message_*.c src/base/time_and_value_checks.c &&
+    -o "$copy/two" "$copy/two.c" src/wire/message_*.c src/base/value_checks.c &&
     nm "$copy/two" >"$copy/symbols"; } 2>"$copy/output" || status=$?
 sed -nE 's/.* ([a-z_]+_(runs|ints|floats|format|rules|names))$/\1/p' "$copy/symbols" | sort \
     >"$copy/tables"

@@ -37,7 +37,7 @@ RAM = re.compile(r"\.(data|sdata|bss|sbss|COMMON)")
 # {object: its large members, each with the macros that determine its size}
 PARTS = {
     "tracker": ("hypotheses RHO_MAX_HYPOTHESES", "tracks RHO_MAX_TRACKS",
-                "clutter_map RHO_MAX_ECHOES", "assignment RHO_MAX_TRACKS", "looks RHO_MAX_SENSORS",
+                "clutter_map RHO_MAX_ECHOES", "assignment RHO_MAX_TRACKS",
                 "sensors RHO_MAX_SENSORS", "strips RHO_PLOT_STRIPS", "bodies RHO_BODIES"),
     "initiator": ("window RHO_MAX_SCANS RHO_MAX_PLOTS", "candidates RHO_MAX_CANDIDATES",
                   "density RHO_MAX_DENSITY_CELLS", "memory RHO_MAX_CLUTTER_CELLS"),
