@@ -122,7 +122,7 @@
 
 /* Further capacities of trackers. */
 
-/* Bins of a scan's neighbour look-up: more save distance tests. RAM: 2 bytes a scan. 1 .. 32767. */
+/* Bins of a scan's look-up; more save tests. RAM: 2 bytes a bin and scan. 1 .. 32767. */
 #ifndef RHO_MAX_BINS
 #define RHO_MAX_BINS RHO_CONFIG_PICK(RHO_MAX_PLOTS < 14563 ? RHO_MAX_PLOTS * 9 / 4 : 32767, 16384)
 #endif
@@ -161,7 +161,10 @@
 #define RHO_MAX_CLUTTER_CELLS RHO_CONFIG_PICK(16, 256)
 #endif
 
-/* Regions of range, and of azimuth, of the echoes' return rate. RAM: 480 bytes each. 1 .. 15. */
+/*
+ * Regions of range, and as many of azimuth, of the echoes' return rate. RAM: 480 bytes a region, of
+ * which there are RHO_ECHO_REGIONS squared. 1 .. 15.
+ */
 #ifndef RHO_ECHO_REGIONS
 #define RHO_ECHO_REGIONS RHO_CONFIG_PICK(2, 8)
 #endif
@@ -331,7 +334,7 @@
 #define RHO_PASSIVE_BINS 256
 #endif
 
-/* Pairs of crossings that are not fitted again. RAM: 6 bytes a pair. 1 .. 65536. */
+/* Pairs of crossings remembered as fitted already. RAM: 6 bytes a pair. 1 .. 65536. */
 #ifndef RHO_PASSIVE_PAIRS
 #define RHO_PASSIVE_PAIRS 256
 #endif
@@ -360,12 +363,12 @@
 /* Bytes behind a row, which is read by 64 cells and their margins, 80 in all. A multiple of 4. */
 #define RHO_ACCUMULATOR_PADDING 84
 
-/* Cells with votes of the papers' methods. RAM: 8 bytes. A power of two, 256 .. 4194304. */
+/* Cells with votes of the papers' methods. RAM: 8 bytes each. A power of two, 256 .. 4194304. */
 #ifndef RHO_MAX_HOUGH_CELLS
 #define RHO_MAX_HOUGH_CELLS RHO_CONFIG_PICK(4096, 131072)
 #endif
 
-/* Pairs of successive plots of the papers' methods. RAM: 32 bytes a pair. 16 .. 65534. */
+/* Pairs of plots of successive scans, of the papers. RAM: 32 bytes a pair. 16 .. 65534. */
 #ifndef RHO_MAX_HOUGH_KERNELS
 #define RHO_MAX_HOUGH_KERNELS RHO_CONFIG_PICK(256, 16384)
 #endif

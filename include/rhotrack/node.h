@@ -320,7 +320,7 @@ RHO_MUST_CHECK enum rho_status rho_node_reconfigure(struct rho_node *node,
 /*
  * Applies other settings, from the next step on, to tracker, initiators and the descriptions of
  * sensors: a sensor follows a setting that its description equals (or a range that it does not
- * state). Parameters that are no settings stay.
+ * state).
  * Errors: NULL, STATE, CONFIG (rho_settings_check; or a sensor's least range would not be below its
  * largest); nothing is changed. Cost: windows and sensors. Stack: 900 bytes.
  */
@@ -344,7 +344,7 @@ RHO_MUST_CHECK enum rho_status rho_node_add_storage(struct rho_node *node, void 
 
 /*
  * Adds a zone, as rho_zones_add. Errors: those of rho_zones_add; CAPACITY where RHO_MAX_ZONES is 0.
- * Stack: 100 bytes.
+ * Stack: 130 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_node_add_zone(struct rho_node *node,
                                                  const struct rho_zone *zone);

@@ -390,7 +390,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Initialises an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS).
- * Cost: sizeof(tracker) bytes cleared. Stack: 400 bytes.
+ * Cost: sizeof(tracker) bytes cleared. Stack: 420 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
@@ -418,7 +418,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_reconfigure(struct rho_tracker *track
  * Describes a sensor, or replaces its description by sensor_id; values learned for it are kept, and
  * are applied to the new description.
  * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost:
- * RHO_MAX_SENSORS.
+ * RHO_MAX_SENSORS. Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker,
                                                       const struct rho_sensor *sensor);

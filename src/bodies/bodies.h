@@ -73,9 +73,10 @@ static inline int rho_bodies_may_own(const struct rho_look *look, unsigned row)
     return RHO_BODIES && row < RHO_BODY_TRACKS &&
            look->tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row);
 }
+/* body_extents.c: prior variance of a place on a body, on each axis */
+float rho_bodies_prior_m2(const struct rho_tracker *tracker);
+
 /* duplicate_tracks.c: ends one of two tracks of one target; the other track gets its plots */
 void rho_bodies_end_duplicates(struct step *step);
-/* Prior variance of a place on a body, on each axis. */
-float rho_bodies_prior_m2(const struct rho_tracker *tracker);
 
 #endif

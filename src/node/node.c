@@ -9,9 +9,6 @@
 /* Least number of passive sensors whose bearings give positions. */
 #define PASSIVE_MIN 2
 
-/* Longest wait of a command for a step: longer than a turn of any radar. */
-#define COMMAND_WAIT_US 60000000
-
 /*
  * Values of is_making_room: when the assembler has no room for a message (WANTED), one scan is
  * stepped (MADE), and the caller gives the message again.
@@ -167,7 +164,8 @@ static int fetch_item(struct rho_node *node, int64_t now_us)
         node->has_item = 1;
         return 1;
     }
-    return room == ROOM_ENOUGH && now_us >= node->frame_due_us && rho_node_frames_close(node);
+    return RHO_NODE_HAS_BEARINGS && room == ROOM_ENOUGH && now_us >= node->frame_due_us &&
+           rho_node_frames_close(node);
 }
 
 static enum rho_status step_closed_frame(struct rho_node *node)
@@ -244,7 +242,8 @@ enum rho_status rho_node_take(struct rho_node *node, const char *channel, const 
     if (!rho_node_is_ready(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
-    if (RHO_MAX_COMMANDS > 0 && rho_node_commands_take(node, channel, data, size, now_us)) {
+    if (RHO_MAX_COMMANDS > 0 && channel && data &&
+        rho_node_commands_take(node, channel, data, size, now_us)) {
         return RHO_OK;
     }
     node->now_us = now_us;
@@ -258,7 +257,12 @@ int64_t rho_node_due_us(const struct rho_node *node)
     int64_t due_us = INT64_MAX;
     if (rho_node_is_ready(node)) {
         due_us = rho_scan_assembler_due_us(&node->assembler);
-        due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
+        if (RHO_NODE_HAS_BEARINGS) {
+            due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
+        }
+        if (RHO_MAX_COMMANDS > 0) {
+            due_us = rho_node_answers_due(node, due_us);
+        }
     }
     return due_us;
 }

@@ -30,6 +30,19 @@ void rho_node_answers_show(struct rho_node *node)
     }
 }
 
+int64_t rho_node_answers_due(const struct rho_node *node, int64_t due_us)
+{
+    const struct rho_node_operator *operated = NODE_OPERATOR(node);
+    int64_t sooner_us = INT64_MAX;
+    if (RHO_MAX_COMMANDS > 0 && operated->num_answers > operated->num_shown) {
+        sooner_us = node->now_us;
+    } else if (RHO_MAX_COMMANDS > 0 && operated->num_commands > 0 &&
+               operated->commands[0].came_us < INT64_MAX - COMMAND_WAIT_US) {
+        sooner_us = operated->commands[0].came_us + COMMAND_WAIT_US + 1;
+    }
+    return sooner_us < due_us ? sooner_us : due_us;
+}
+
 static void count_answer(struct rho_node *node, int8_t status)
 {
     uint32_t *counter =
@@ -53,7 +66,9 @@ static void answer_command(struct rho_node *node, struct rho_message_command_ans
     count_answer(node, answer->status);
     answer->scan = node->step;
     answer->epoch = node->epoch;
-    *add_answer(NODE_OPERATOR(node)) = (struct rho_node_answer){.command = *answer};
+    if (RHO_MAX_COMMANDS > 0) {
+        *add_answer(NODE_OPERATOR(node)) = (struct rho_node_answer){.command = *answer};
+    }
 }
 
 static void answer_setting(struct rho_node *node, struct rho_message_setting_answer *answer)
@@ -62,8 +77,10 @@ static void answer_setting(struct rho_node *node, struct rho_message_setting_ans
     answer->utime = node->report.time_us;
     answer->scan = node->step;
     answer->epoch = node->epoch;
-    *add_answer(NODE_OPERATOR(node)) =
-        (struct rho_node_answer){.is_setting = 1, .setting = *answer};
+    if (RHO_MAX_COMMANDS > 0) {
+        *add_answer(NODE_OPERATOR(node)) =
+            (struct rho_node_answer){.is_setting = 1, .setting = *answer};
+    }
 }
 
 static void refuse(struct rho_node *node, const struct rho_node_command *waiting,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * node_parts: the parts of a node that a build may lack, as pointers that are constants NULL there,
- * and what the files of this room call of one another, node_x_* of node_x.c. A part is used
+ * and what the files of this room call of one another, rho_node_x_* of node_x.c. A part is used
  * behind an `if` on the build's option alone.
  */
 #ifndef RHOTRACK_NODE_PARTS_H
@@ -10,6 +10,9 @@
 #include "rhotrack/node.h"
 
 #define RHO_NODE_MAGIC 0x6e6f6465u
+
+/* Longest wait of a command for a step: longer than a turn of any radar. */
+#define COMMAND_WAIT_US 60000000
 
 #if RHO_SEARCHES
 #define NODE_INITIATOR(node) (&(node)->initiator)
@@ -143,6 +146,8 @@ void rho_node_commands_run(struct rho_node *node);
 void rho_node_answers_drop(struct rho_node *node);
 void rho_node_answers_show(struct rho_node *node);
 unsigned rho_node_answers_count(const struct rho_node *node);
+/* due_us, or sooner where an answer waits or a command becomes too old. */
+int64_t rho_node_answers_due(const struct rho_node *node, int64_t due_us);
 
 /* Refuses commands that came before that time, as what the operator saw has changed. */
 void rho_node_commands_refuse(struct rho_node *node, int64_t before_us);

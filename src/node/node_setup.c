@@ -189,8 +189,8 @@ void rho_node_restart(struct rho_node *node)
     if (RHO_SEARCHES) {
         (void)!rho_node_windows_init(node, &NODE_INITIATOR(node)->config);
     }
-    if (rho_node_is_plots_by_paper(node)) {
-        struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
+    struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
+    if (starts && rho_node_is_plots_by_paper(node)) {
         const struct rho_paper_starts_config config = starts->config;
         (void)!rho_paper_starts_init(starts, sizeof *starts, &config);
     }

@@ -100,13 +100,12 @@ enum rho_status rho_node_saved_settings(const void *image, size_t size,
 /* Begins the windows anew, empty, with the sensors of those in the image. */
 static enum rho_status add_saved_windows(struct rho_node *node, const struct saved *saved)
 {
-    const int32_t sharing = saved->num_parts > 0 ? saved->parts[0].id : OF_NOBODY;
     if (RHO_SEARCHES) {
         (void)!rho_node_windows_init(node, &NODE_INITIATOR(node)->config);
     }
-    for (unsigned i = 1;
-         i < saved->num_parts && RHO_MAX_WINDOWS > 1 && RHO_SEARCHES &&
-         node->options.windows != RHO_NODE_ONE && (sharing == OF_SENSORS || sharing == OF_PAIRS);
+    for (unsigned i = 1; i < saved->num_parts && RHO_MAX_WINDOWS > 1 && RHO_SEARCHES &&
+                         node->options.windows != RHO_NODE_ONE &&
+                         (saved->parts[0].id == OF_SENSORS || saved->parts[0].id == OF_PAIRS);
          i++) {
         if (saved->parts[i].kind == RHO_SNAPSHOT_INITIATOR &&
             !rho_node_windows_add(node, saved->parts[i].id)) {
@@ -167,6 +166,12 @@ static enum rho_status load_alike(struct rho_node *node, const struct saved *sav
     return rho_snapshot_load(own, num_own, saved->image, size);
 }
 
+/* Settings are copied whole, so that equal ones have equal padding. */
+static int has_equal_bytes(const void *a, const void *b)
+{
+    return memcmp(a, b, sizeof(struct rho_settings)) == 0;
+}
+
 enum rho_status rho_node_load(struct rho_node *node, const void *image, size_t size)
 {
     struct saved saved;
@@ -181,14 +186,13 @@ enum rho_status rho_node_load(struct rho_node *node, const void *image, size_t s
     }
     before = node->settings;
     now = saved_settings(&saved, SETTINGS_NOW);
-    if (!now ||
-        (memcmp(now, &before, sizeof before) != 0 && rho_node_set_settings(node, now) != RHO_OK)) {
+    if (!now || (!has_equal_bytes(now, &before) && rho_node_set_settings(node, now) != RHO_OK)) {
         return RHO_ERROR_CONFIG;
     }
     status = load_alike(node, &saved, size);
     if (status == RHO_OK) {
         node->is_restored = 1;
-    } else if (memcmp(&node->settings, &before, sizeof before) != 0) {
+    } else if (!has_equal_bytes(&node->settings, &before)) {
         (void)!rho_node_set_settings(node, &before); /* they were taken before */
     }
     return status;

@@ -172,7 +172,7 @@ static void copy_held_scan(struct rho_node *node, struct rho_initiator *to,
     struct rho_plot *plots = NODE_UNPACKED(node);
     uint8_t *fates = NODE_FATES(node);
     uint32_t left_unused = 0;
-    for (unsigned i = 0; i < held->num_plots; i++) {
+    for (unsigned i = 0; i < held->num_plots && plots && fates; i++) {
         plots[i] = rho_window_unpack_plot(held, i);
         fates[i] = held->marks[i] & RHO_WINDOW_INITIATED ? RHO_FATE_CLAIMED : RHO_FATE_HELD;
     }
@@ -237,13 +237,12 @@ struct rho_initiator *rho_node_windows_add(struct rho_node *node, int32_t sensor
 struct rho_initiator *rho_node_windows_find(struct rho_node *node, const struct rho_scan *scan,
                                             int is_live)
 {
-    struct rho_node_window_list *windows = &node->windows;
     struct rho_initiator *window = NODE_INITIATOR(node);
-    int32_t sensor_id = scan->sensor_id;
     if (RHO_MAX_WINDOWS > 1 && node->options.windows != RHO_NODE_ONE) {
-        if (node->options.windows == RHO_NODE_PAIRS) {
-            sensor_id = sensor_of_window(node, scan, is_live);
-        }
+        struct rho_node_window_list *windows = &node->windows;
+        const int32_t sensor_id = node->options.windows == RHO_NODE_PAIRS
+                                      ? sensor_of_window(node, scan, is_live)
+                                      : scan->sensor_id;
         window = rho_node_windows_add(node, sensor_id);
         if (!window || (windows->newest == RHO_MAX_WINDOWS - 1 &&
                         windows->sensor_id[windows->newest] == sensor_id)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* begin: begins a step: report, motion model, order of time, and the sensor of a scan of plots. */
+/* begin: begins a step: report, motion model and order of time. */
 #include <string.h>
 
 #include "phases.h"
@@ -46,15 +46,15 @@ int rho_step_begin(struct step *step)
      * its initiator: a radar that is always late has an initiator of its own.
      */
     look->teaches = (uint8_t)rho_step_is_newest(tracker, look->time_us);
-    look->starts =
-        look->teaches || (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
+    look->starts = look->teaches || (RHO_SECTORS && look->initiator &&
+                                     rho_initiator_accepts(look->initiator, look->time_us));
     if (!look->teaches && !(RHO_SECTORS && rho_retrodiction_accepts(look))) {
         memset(look->fates, RHO_FATE_STALE, look->num_gated);
         tracker->counters.scans_late = rho_count(tracker->counters.scans_late, 1);
         return 0;
     }
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
-    if (!look->teaches) {
+    if (RHO_SECTORS && !look->teaches) {
         tracker->counters.scans_retrodicted = rho_count(tracker->counters.scans_retrodicted, 1);
     } else {
         rho_manoeuvres_reset(tracker, look->time_us);

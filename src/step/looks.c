@@ -21,8 +21,13 @@
 
 void rho_step_open_scan(struct rho_tracker *tracker, struct rho_look *look)
 {
-    /* the sensor with its pd, notch and noise, and the scan in its history */
-    look->row = rho_sensors_hear(tracker, look->scan->sensor_id);
+    /* the sensor with its pd, notch and noise; a late scan takes no row, and is no history */
+    const unsigned known = RHO_SECTORS ? rho_sensors_row(tracker, look->scan->sensor_id) : 0;
+    if (!RHO_SECTORS || look->teaches) {
+        look->row = rho_sensors_hear(tracker, look->scan->sensor_id);
+    } else if (known < tracker->num_rows) {
+        look->row = &tracker->sensors[known];
+    }
     if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
         look->sensor = &look->row->sensor;
         look->learned = &look->row->learned;
@@ -31,7 +36,7 @@ void rho_step_open_scan(struct rho_tracker *tracker, struct rho_look *look)
     if (RHO_SECTORS) {
         rho_turn_note_look(tracker, look);
     }
-    if (look->teaches && look->row) {
+    if ((!RHO_SECTORS || look->teaches) && look->row) {
         rho_pace_update(&look->row->pace, look->sensor, look->time_us, look->scan->sector_from_rad,
                         look->scan->sector_to_rad);
     }

@@ -35,8 +35,9 @@ enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
                                      const struct rho_operator_start *start,
                                      struct rho_report *report)
 {
-    if (!tracker || !start || !report) {
-        return RHO_ERROR_NULL;
+    const enum rho_status status = rho_tracker_check(tracker, start && report);
+    if (status != RHO_OK) {
+        return status;
     }
     /* a start is of the sensor with the newest scan; 0: none was heard */
     const struct rho_tracker_sensor *newest = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * phases: the phases of a step, in their order, each a file; step.c calls them for a scan of plots
- * and for a frame of bearings. No phase calls an earlier one. Private to src/step.
+ * phases: the phases of a step, in their order, each a file; step.c calls them for a scan of plots,
+ * frame_step.c for a frame of bearings. No phase calls an earlier one. Private to src/step.
  */
 #ifndef RHOTRACK_PHASES_H
 #define RHOTRACK_PHASES_H

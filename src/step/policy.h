@@ -70,8 +70,8 @@
 /* Sigmas below the slowest speed. Half: noise ends slow targets. Twice: standing objects stay. */
 #define SLOW_SIGMAS 3.0f
 /*
- * Speed of a track that is too fast, over v_max_mps, where its sigma is small. Half: targets at
- * v_max end, as its estimate may be a little larger. Twice: false tracks at twice v_max stay.
+ * Speed of a track that is too fast, over v_max_mps, where its sigma is small. Half: targets
+ * above 0.55 v_max end. Twice: false tracks at twice v_max stay.
  */
 #define FAST_SHARE 1.1f
 /*

@@ -7,8 +7,8 @@
 
 /*
  * plot_index.c: iterates over rows of plots, a superset of the held plots in a rectangle:
- *     struct plots_near near = rho_plots_near(step, x_min_m, x_max_m, y_min_m, y_max_m);
- *     for (uint32_t row; rho_plots_next(step, &near, &row);)
+ *     struct plots_near near = rho_plots_near(tracker, x_min_m, x_max_m, y_min_m, y_max_m);
+ *     for (uint32_t row; rho_plots_next(look, &near, &row);)
  */
 struct plots_near {
     uint32_t next, end;     /* places in the strip or box that is read */
@@ -136,8 +136,8 @@ float rho_score_log_miss(const struct rho_look *look, const struct rho_track *tr
 /*
  * Iterates over the plots near a track with hypotheses that are not assigned to another track, each
  * scored by every hypothesis; gain_nat is the score over clutter:
- *     rho_score_begin(step, row, &scores);
- *     while (rho_score_next(step, &scores, &plot, &gain_nat))
+ *     rho_score_begin(tracker, look, work, row, &scores);
+ *     while (rho_score_next(tracker, look, work, &scores, &plot, &gain_nat))
  */
 struct plot_scores {
     unsigned track_row;

@@ -222,7 +222,7 @@
 #define SELDOM 0.3f
 #define HIT_NAT 1.2039728f
 /*
- * Wanted number of true tracks for each false one. Half: one confirmed track in five is false.
+ * Wanted number of true tracks for each false one. Half: one confirmed track in six is false.
  * Twice: targets are confirmed later where aircraft come and go.
  */
 #define TRUE_PER_FALSE 10.0f
@@ -388,7 +388,7 @@
 #define MERGED_NAT 0.3f
 /*
  * Evidence for one target where the younger track has no plot, and the older one's is outside its
- * gate. Half: second tracks without plots stay longer. Twice: three misses end a new track.
+ * gate. Half: second tracks without plots stay longer. Twice: two misses end a new track.
  */
 #define YOUNGER_MISS_NAT 1.0f
 

@@ -52,7 +52,7 @@ void rho_turn_note_look(struct rho_tracker *tracker, struct rho_look *look)
 /* Lowest start and highest confirm threshold of all radars: each tests the others' tracks, too. */
 void rho_turn_merge_thresholds(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    if (look->row) {
+    if (look->row && look->row->look.count > 0) {
         look->row->look.start_mnat = look->initiator->start_mnat;
         look->row->look.confirm_mnat = look->initiator->confirm_mnat;
     }

@@ -259,11 +259,11 @@ int rho_learning_is_sound(const struct rho_tracker_learned *learned)
 enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t sensor_id,
                                      struct rho_tracker_known *known)
 {
-    if (!tracker || !known) {
-        return RHO_ERROR_NULL;
+    const enum rho_status status = rho_tracker_check(tracker, known != 0);
+    if (status != RHO_OK) {
+        return status;
     }
-    const unsigned row =
-        rho_tracker_is_ready(tracker) ? rho_sensors_row(tracker, sensor_id) : RHO_MAX_SENSORS;
+    const unsigned row = rho_sensors_row(tracker, sensor_id);
     if (row >= tracker->num_sensors) {
         return RHO_ERROR_STATE;
     }

@@ -45,6 +45,13 @@ int rho_sensors_is_usable(const struct rho_sensor *sensor)
            rho_angle_is_valid_sector(sensor->sector_from_rad, sensor->sector_to_rad);
 }
 
+/* The pace's time is that of the newest scan of the fixed direction only. */
+static int64_t heard_us(const struct rho_tracker_sensor *row)
+{
+    const int64_t pace_us = row->pace.time_us;
+    return row->look.count > 0 && row->look.time_us > pace_us ? row->look.time_us : pace_us;
+}
+
 /*
  * A cleared row for a new sensor, behind all others: in a full table that of the undescribed sensor
  * heard longest ago. num_rows RHO_MAX_SENSORS: all rows are of described sensors.
@@ -54,8 +61,8 @@ static unsigned make_row(struct rho_tracker *tracker, int32_t sensor_id)
     unsigned row = tracker->num_rows;
     if (row == RHO_MAX_SENSORS) {
         row = tracker->num_sensors;
-        for (unsigned i = row + 1u; i < RHO_MAX_SENSORS; i++) {
-            row = tracker->sensors[i].pace.time_us < tracker->sensors[row].pace.time_us ? i : row;
+        for (unsigned i = row + 1u; RHO_MAX_SENSORS > 1 && i < RHO_MAX_SENSORS; i++) {
+            row = heard_us(&tracker->sensors[i]) < heard_us(&tracker->sensors[row]) ? i : row;
         }
     } else {
         tracker->num_rows++;
@@ -78,7 +85,7 @@ struct rho_tracker_sensor *rho_sensors_hear(struct rho_tracker *tracker, int32_t
 static void swap_rows(struct rho_tracker_sensor *one, struct rho_tracker_sensor *other)
 {
     unsigned char *a = (unsigned char *)one, *b = (unsigned char *)other;
-    for (size_t i = 0; i < sizeof *one && one != other; i++) {
+    for (size_t i = 0; RHO_MAX_SENSORS > 1 && one != other && i < sizeof *one; i++) {
         const unsigned char byte = a[i];
         a[i] = b[i];
         b[i] = byte;

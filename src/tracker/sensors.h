@@ -34,7 +34,7 @@ void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look);
 /* Writes the learned noise factors, times suspicion, into this description of the sensor. */
 void rho_learning_write_noise(const struct rho_look *look, float suspicion,
                               struct rho_sensor *sensor);
-/* (RHO_DOPPLER_NOTCH) Writes the learned notch into a description that states none. */
+/* notch_learning.c (RHO_DOPPLER_NOTCH): writes the learned notch where none is stated */
 void rho_learning_apply_notch(const struct rho_look *look);
 /* Learns noise, pd and notch of the scan's sensor from this scan's plots and misses. */
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * message_clamps: numbers of the library brought into the narrower integer members of a message,
- * and the number of messages of a list. Private to src/wire.
+ * and the number of messages of a list. Private to src/wire and src/node.
  */
 #ifndef RHOTRACK_MESSAGE_CLAMPS_H
 #define RHOTRACK_MESSAGE_CLAMPS_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * message_codec: encodes, decodes and validates messages by the generated tables of message_types.c
- * that describe them. Private to message.
+ * that describe them. Private to src/wire.
  *
  * A struct is described by runs: members of the same width that follow each other in memory as they
  * do on the wire. Tables hold offsets instead of pointers, so that they stay in flash.

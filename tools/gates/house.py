@@ -264,9 +264,10 @@ def bare_policy(tree):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true",
+    mode = parser.add_mutually_exclusive_group()
+    mode.add_argument("--check", action="store_true",
                         help="print the figures above goal and bound; exit 1 where there is any")
-    parser.add_argument("--show", action="store_true", help="print all that is counted")
+    mode.add_argument("--show", action="store_true", help="print all that is counted")
     parser.add_argument("--only", metavar="FIGURE", choices=[each[0] for each in FIGURES],
                         help="one of " + ", ".join(each[0] for each in FIGURES))
     parser.add_argument("root", nargs="?", metavar="ROOT",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A node, and what sensors send to it. */
-#ifndef RHOTRACK_TESTS_NODE_SETUP_H
-#define RHOTRACK_TESTS_NODE_SETUP_H
+#ifndef RHOTRACK_TESTS_NODE_SENDERS_H
+#define RHOTRACK_TESTS_NODE_SENDERS_H
 
 #include <math.h>
 #include <stdio.h>
