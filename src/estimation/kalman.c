@@ -403,9 +403,3 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
     }
     return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2, NULL);
 }
-
-int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis)
-{
-    return kalman != NULL && axis >= 0 && axis < RHO_AXES &&
-           kalman->covariance[DIAGONAL(axis)] > 0.0f;
-}

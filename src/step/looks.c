@@ -22,11 +22,11 @@
 void rho_step_open_scan(struct rho_tracker *tracker, struct rho_look *look)
 {
     /* the sensor with its pd, notch and noise; a late scan takes no row, and is no history */
-    const unsigned known = RHO_SECTORS ? rho_sensors_row(tracker, look->scan->sensor_id) : 0;
-    if (!RHO_SECTORS || look->teaches) {
+    if (RHO_SECTORS && !look->teaches) {
+        const unsigned known = rho_sensors_row(tracker, look->scan->sensor_id);
+        look->row = known < tracker->num_rows ? &tracker->sensors[known] : 0;
+    } else {
         look->row = rho_sensors_hear(tracker, look->scan->sensor_id);
-    } else if (known < tracker->num_rows) {
-        look->row = &tracker->sensors[known];
     }
     if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
         look->sensor = &look->row->sensor;

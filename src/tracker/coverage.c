@@ -92,11 +92,6 @@ int rho_coverage_may_see(const struct rho_look *look, const struct rho_track *tr
            (!sensor || rho_coverage_holds_bearing(sensor, azimuth_rad, margin_rad));
 }
 
-int rho_look_has_in_view(const struct rho_look *look, unsigned row)
-{
-    return (look->in_view[row / 32] >> row % 32 & 1u) != 0;
-}
-
 int rho_coverage_holds_track(const struct rho_look *look, float sector_from_rad,
                              float sector_to_rad, const struct rho_track *track)
 {

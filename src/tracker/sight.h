@@ -26,7 +26,10 @@ int rho_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_ra
 /* True where the scan may see a track, by sector and range, with a margin. */
 int rho_coverage_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where the scan may see the track of this row, as found when tracks were predicted. */
-int rho_look_has_in_view(const struct rho_look *look, unsigned row);
+static inline int rho_look_has_in_view(const struct rho_look *look, unsigned row)
+{
+    return (look->in_view[row / 32] >> row % 32 & 1u) != 0;
+}
 /* True where the sensor, looking at this sector, covers the track's place. */
 int rho_coverage_holds_track(const struct rho_look *look, float sector_from_rad,
                              float sector_to_rad, const struct rho_track *track);
