@@ -260,9 +260,7 @@ int64_t rho_node_due_us(const struct rho_node *node)
         if (RHO_NODE_HAS_BEARINGS) {
             due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
         }
-        if (RHO_MAX_COMMANDS > 0) {
-            due_us = rho_node_answers_due(node, due_us);
-        }
+        due_us = rho_node_answers_due(node, due_us);
     }
     return due_us;
 }

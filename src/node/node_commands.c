@@ -34,9 +34,12 @@ int64_t rho_node_answers_due(const struct rho_node *node, int64_t due_us)
 {
     const struct rho_node_operator *operated = NODE_OPERATOR(node);
     int64_t sooner_us = INT64_MAX;
-    if (RHO_MAX_COMMANDS > 0 && operated->num_answers > operated->num_shown) {
+    if (RHO_MAX_COMMANDS == 0) {
+        return due_us;
+    }
+    if (operated->num_answers > operated->num_shown) {
         sooner_us = node->now_us;
-    } else if (RHO_MAX_COMMANDS > 0 && operated->num_commands > 0 &&
+    } else if (operated->num_commands > 0 &&
                operated->commands[0].came_us < INT64_MAX - COMMAND_WAIT_US) {
         sooner_us = operated->commands[0].came_us + COMMAND_WAIT_US + 1;
     }

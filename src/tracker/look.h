@@ -82,6 +82,12 @@ struct rho_look {
     float range_rates_mps; /* interval of range rates in which clutter is uniform, m/s */
 };
 
+/* The record of the sensor's scans; NULL: none came in sequence, as of one that is always late. */
+static inline struct rho_tracker_look *rho_look_record(const struct rho_look *look)
+{
+    return look->row && look->row->look.count > 0 ? &look->row->look : 0;
+}
+
 static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
 {
     return tracker->magic == RHO_TRACKER_MAGIC;

@@ -52,9 +52,10 @@ void rho_turn_note_look(struct rho_tracker *tracker, struct rho_look *look)
 /* Lowest start and highest confirm threshold of all radars: each tests the others' tracks, too. */
 void rho_turn_merge_thresholds(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    if (look->row && look->row->look.count > 0) {
-        look->row->look.start_mnat = look->initiator->start_mnat;
-        look->row->look.confirm_mnat = look->initiator->confirm_mnat;
+    struct rho_tracker_look *record = rho_look_record(look);
+    if (record) {
+        record->start_mnat = look->initiator->start_mnat;
+        record->confirm_mnat = look->initiator->confirm_mnat;
     }
     for (unsigned i = 0; i < tracker->num_rows; i++) {
         const struct rho_tracker_look *health = &tracker->sensors[i].look;

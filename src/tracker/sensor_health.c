@@ -120,15 +120,9 @@ static void judge_sensor(struct rho_tracker *tracker, struct rho_look *look)
     look->is_suspect = (uint8_t)health->is_suspect;
 }
 
-/* A sensor whose scans are all late has none: it is neither compared nor suspected. */
-static int has_history(const struct rho_look *look)
-{
-    return look->row && look->row->look.count > 0;
-}
-
 void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look)
 {
-    struct rho_tracker_look *health = has_history(look) ? &look->row->look : 0;
+    struct rho_tracker_look *health = rho_look_record(look);
     for (unsigned row = 0; row < tracker->num_tracks && health; row++) {
         /* confirmed tracks in view, seen by two sensors, last by another one that is not suspect */
         const struct rho_track *track = &tracker->tracks[row];
@@ -156,10 +150,11 @@ void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look)
 
 float rho_health_sigma_factor(struct rho_tracker *tracker, struct rho_look *look)
 {
-    if (has_history(look)) {
+    const struct rho_tracker_look *health = rho_look_record(look);
+    if (health) {
         judge_sensor(tracker, look); /* the witnesses may be silent by now */
     }
     /* the NIS, a ratio of variances, multiplies sigmas: a bias pulls tracks more than noise does */
-    const float shown = has_history(look) && look->is_suspect ? look->row->look.distance2 : 1.0f;
+    const float shown = health && look->is_suspect ? health->distance2 : 1.0f;
     return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;
 }

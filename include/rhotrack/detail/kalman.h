@@ -194,8 +194,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
 /* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
 static inline int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis)
 {
-    /* diagonal elements 0, 2 and 5 of the lower triangle, row by row */
-    return kalman && axis >= 0 && axis < 3 && kalman->covariance[axis * (axis + 3) / 2] > 0.0f;
+    return kalman && axis >= 0 && axis < RHO_AXES && kalman->covariance[RHO_AT(axis, axis)] > 0.0f;
 }
 
 #ifdef __cplusplus

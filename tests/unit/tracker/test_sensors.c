@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "rhotrack/operator.h"
 #include "rhotrack/tracker.h"
 
 static struct rho_tracker tracker;
@@ -102,6 +103,35 @@ static void a_table_of_described_sensors_takes_no_other(void **state)
     assert_true(rho_tracker_is_sound(&tracker));
 }
 
+/* A sensor whose scans are all late is stepped, but takes no row, and none from another sensor. */
+static void a_sensor_that_is_always_late_takes_no_row(void **state)
+{
+    (void)state;
+    hear(1, 100);
+    hear(2, 90);
+    assert_int_equal(tracker.counters.scans_retrodicted, RHO_SECTORS ? 1 : 0);
+    assert_int_equal(tracker.num_rows, 1);
+    assert_null(rho_tracker_look_of(&tracker, 2));
+    assert_int_equal(describe(3), RHO_OK);
+    hear(3, 95);
+    assert_null(rho_tracker_look_of(&tracker, 3));
+    hear(2, 101);
+    assert_int_equal(tracker.num_rows, 3);
+    assert_true(rho_tracker_is_sound(&tracker));
+}
+
+/* A tracker that was never initialised is told apart before its table is read. */
+static void a_table_without_a_tracker_is_not_read(void **state)
+{
+    static struct rho_tracker none;
+    struct rho_tracker_known known;
+    const struct rho_operator_start start = {.sigma_m = 1.0f};
+    (void)state;
+    none.num_rows = none.num_sensors = UINT16_MAX;
+    assert_int_equal(rho_tracker_known_of(&none, 1, &known), RHO_ERROR_STATE);
+    assert_int_equal(rho_tracker_start_at(&none, &start, &report), RHO_ERROR_STATE);
+}
+
 /* A forgotten sensor leaves nothing: heard again, it has an undescribed row without a history. */
 static void a_forgotten_sensor_begins_anew(void **state)
 {
@@ -130,6 +160,8 @@ int main(void)
         cmocka_unit_test_setup(a_sensor_has_one_row, set_up),
         cmocka_unit_test_setup(a_full_table_keeps_described_sensors, set_up),
         cmocka_unit_test_setup(a_table_of_described_sensors_takes_no_other, set_up),
+        cmocka_unit_test_setup(a_sensor_that_is_always_late_takes_no_row, set_up),
+        cmocka_unit_test(a_table_without_a_tracker_is_not_read),
         cmocka_unit_test_setup(a_forgotten_sensor_begins_anew, set_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
