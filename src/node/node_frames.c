@@ -4,8 +4,6 @@
 
 #include "node_parts.h"
 
-#define RANGE_UNKNOWN_M (2.0f * RHO_LIMIT_POSITION_M)
-
 /* Successive refused scans of a passive sensor after which it is taken to have moved. */
 #define MOVED_SCANS 16
 

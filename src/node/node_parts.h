@@ -11,6 +11,9 @@
 
 #define RHO_NODE_MAGIC 0x6e6f6465u
 
+/* Range of a sensor whose description states none. */
+#define RANGE_UNKNOWN_M (2.0f * RHO_LIMIT_POSITION_M)
+
 /* Longest wait of a command for a step: longer than a turn of any radar. */
 #define COMMAND_WAIT_US 60000000
 

@@ -2,8 +2,6 @@
 /* node_settings: puts changed settings into a running node and the descriptions of its sensors. */
 #include "node_parts.h"
 
-#define RANGE_UNKNOWN_M (2.0f * RHO_LIMIT_POSITION_M)
-
 static int is_same(float a, float b)
 {
     return !(a < b || a > b);

@@ -106,7 +106,7 @@ static int has_unknown_parts(const struct rho_node_config *config)
            (RHO_BODIES && !rho_is_within(config->body_max_m, 0.0f, RHO_LIMIT_BODY_M)) ||
            (!RHO_BODIES && config->body_max_m > 0.0f) ||
            (RHO_NODE_HAS_BEARINGS &&
-            !rho_is_within(config->passive_range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M)) ||
+            !rho_is_within(config->passive_range_max_m, 0.0f, RANGE_UNKNOWN_M)) ||
            (!(RHO_PAPERS) &&
             (config->options.is_plots_by_paper || config->options.is_bearings_by_paper)) ||
            (!(RHO_LEARNS_REFLECTORS) && config->options.learns_reflectors) ||

@@ -90,17 +90,15 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
 }
 
 /* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
-static int score_bearing(const struct rho_look *look, const struct rho_track *track, uint32_t i,
-                         float *gain_nat)
+static int score_bearing(const struct rho_look *look, const struct rho_gate *gate,
+                         const struct rho_track *track, uint32_t i, float *gain_nat)
 {
     const struct rho_bearing_scan *scan = look->bearings;
-    struct rho_gate gate;
     struct rho_gate_result result;
     struct rho_bearing bearing = scan->bearings[i];
     /* the update by an earlier look of the frame may have moved the track from the frame's time */
     bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
-    rho_score_open_gate(look, track, 0, &gate);
-    if (!rho_gate_test_bearing(&gate, &bearing, scan->x_m, scan->y_m, &result)) {
+    if (!rho_gate_test_bearing(gate, &bearing, scan->x_m, scan->y_m, &result)) {
         return 0;
     }
     *gain_nat = look->log_pd - 0.5f * (RHO_LOG_TWO_PI + result.log_det + result.distance2) -
@@ -110,10 +108,12 @@ static int score_bearing(const struct rho_look *look, const struct rho_track *tr
 
 static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *look, unsigned row)
 {
+    const struct rho_track *track = &tracker->tracks[row];
+    struct rho_gate gate;
     float gain_nat;
+    rho_score_open_gate(look, track, 0, &gate);
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] == RHO_FATE_HELD &&
-            score_bearing(look, &tracker->tracks[row], i, &gain_nat)) {
+        if (look->fates[i] == RHO_FATE_HELD && score_bearing(look, &gate, track, i, &gain_nat)) {
             rho_score_add_pair(tracker, row, i, gain_nat - look->log_miss);
         }
     }
@@ -141,7 +141,9 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
                 .sigma_rad = bearing->sigma_rad,
                 .row = (int16_t)column,
             };
-            if (score_bearing(look, track, (uint32_t)column, &gain_nat) &&
+            struct rho_gate gate;
+            rho_score_open_gate(look, track, 0, &gate);
+            if (score_bearing(look, &gate, track, (uint32_t)column, &gain_nat) &&
                 rho_track_update_bearing(track, &seen, &look->model, rho_score_to_mnat(gain_nat)) ==
                     RHO_OK) {
                 look->fates[column] = RHO_FATE_CLAIMED;

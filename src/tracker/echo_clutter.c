@@ -427,11 +427,12 @@ void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)
     }
     const float turn_share = 1.0f / ((RHO_SECTORS ? rho_turn_num_scans(look) : 1.0f) *
                                      (sensors > 1.0f ? sensors : 1.0f));
+    const float kept = rho_clutter_map_decay_factor(turn_share);
     /* the returns of a target's track leave the map once; other tracks fade and add theirs */
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
-            track->returns[c] *= rho_clutter_map_decay_factor(turn_share);
+            track->returns[c] *= kept;
         }
         if (track->plot < 0 || (uint32_t)track->plot >= look->num_gated) {
             continue;

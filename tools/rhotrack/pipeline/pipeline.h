@@ -15,7 +15,7 @@ enum {
 
 struct pipeline {
     struct rho_node *node;
-    struct rho_initiator **storage; /* further initiation windows of the node */
+    void **storage; /* further initiation windows of the node */
     size_t num_storage, storage_room;
     /* live input, where strangers may send; set before pipeline_open, with the two below */
     bool is_live;
