@@ -35,18 +35,6 @@ struct tracking {
     int64_t sum_us, max_us;
 };
 
-/* Gives a sensor's description to the tracker; called before each of its scans, as it may move. */
-static void set_sensor_of_tracker(struct tracking *tracking, const struct rho_sensor *sensor)
-{
-    enum rho_status status = rho_tracker_set_sensor(&tracking->pipeline.node->tracker, sensor);
-
-    if (status == RHO_ERROR_CAPACITY) {
-        fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
-             RHO_MAX_SENSORS);
-    }
-    must_succeed(status, "sensor");
-}
-
 /*
  * Describes all passive sensors at the start, as they do not move; exit 2 where bearings of sensors
  * so many or so far apart cannot be searched.
@@ -71,7 +59,7 @@ static void check_and_set_passive_sensors(struct tracking *tracking,
             sensor.x_m = sensors[i].x_m;
             sensor.y_m = sensors[i].y_m;
             sensor.range_max_m = (float)parameters_range_max_m(parameters, sensors[i].sensor_id);
-            set_sensor_of_tracker(tracking, &sensor);
+            must_set_sensor(&tracking->pipeline.node->tracker, &sensor);
         }
     }
 }
@@ -81,7 +69,7 @@ static void step_and_time_input(struct tracking *tracking, const struct input *i
     int64_t start_us, took_us;
 
     if (input->sensor) {
-        set_sensor_of_tracker(tracking, input->sensor);
+        must_set_sensor(&tracking->pipeline.node->tracker, input->sensor);
     }
     start_us = monotonic_clock_us();
     if (input->scan) {

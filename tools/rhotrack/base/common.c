@@ -534,3 +534,10 @@ void must_succeed(enum rho_status status, const char *what)
         fail(EXIT_RUNTIME, "%s: the library says '%s'", what, rho_status_name(status));
     }
 }
+
+int compare_doubles(const void *a, const void *b)
+{
+    const double one = *(const double *)a, other = *(const double *)b;
+
+    return (one > other) - (one < other);
+}

@@ -141,6 +141,9 @@ void progress_show_by_bytes(struct progress *progress, uint64_t done, uint64_t b
                             uint64_t total_bytes);
 void progress_end(struct progress *progress);
 
+/* Order of two doubles, for qsort. */
+int compare_doubles(const void *a, const void *b);
+
 /* Exit 1 with `what` and the status where a call of the library failed. */
 void must_succeed(enum rho_status status, const char *what);
 

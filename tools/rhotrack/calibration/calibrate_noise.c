@@ -43,13 +43,6 @@ static double jackknife_sigma(const struct jackknife_figures *jackknife_figures)
     return sqrt(sum * (PARTS - 1) / PARTS);
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    const double one = *(const double *)a, other = *(const double *)b;
-
-    return (one > other) - (one < other);
-}
-
 /* Median of the values, which are sorted in place. */
 static double median(double *values, size_t count)
 {

@@ -19,12 +19,6 @@ double evaluation_mean_or_nan(double sum, size_t count)
     return count == 0 ? NAN : sum / (double)count;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double one = *(const double *)a, other = *(const double *)b;
-    return one < other ? -1 : one > other;
-}
-
 /*
  * The value below which a share of the sorted values lies, interpolated between neighbours; NAN
  * where there are none.
@@ -84,7 +78,7 @@ static struct evaluation_errors errors_of_pairs(const struct pair_error *pairs, 
     for (size_t i = 0; i < count; i++) {
         values[i] = pairs[i].error_m;
     }
-    qsort(values, count, sizeof *values, by_value);
+    qsort(values, count, sizeof *values, compare_doubles);
     errors.rmse_m = root_mean_square(values, count);
     errors.median_m = quantile(values, count, 0.5);
     errors.p95_m = quantile(values, count, 0.95);
@@ -93,7 +87,7 @@ static struct evaluation_errors errors_of_pairs(const struct pair_error *pairs, 
             values[known++] = pairs[i].error_mps;
         }
     }
-    qsort(values, known, sizeof *values, by_value);
+    qsort(values, known, sizeof *values, compare_doubles);
     errors.rmse_mps = root_mean_square(values, known);
     errors.median_mps = quantile(values, known, 0.5);
     errors.p95_mps = quantile(values, known, 0.95);

@@ -303,17 +303,6 @@ static int start_or_restart(struct maintainer *maintainer, const struct rho_scan
 
 /* Steps. */
 
-static void set_sensor(struct maintainer *maintainer, const struct rho_sensor *sensor)
-{
-    const enum rho_status status = rho_tracker_set_sensor(&maintainer->tracker, sensor);
-
-    if (status == RHO_ERROR_CAPACITY) {
-        fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
-             RHO_MAX_SENSORS);
-    }
-    must_succeed(status, "sensor");
-}
-
 /* Takes over the tracker's track: its status is that of the last look alone. */
 static void update_track(struct maintainer *maintainer, int row)
 {
@@ -367,7 +356,7 @@ int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
         }
     }
     if (sensor) {
-        set_sensor(maintainer, sensor);
+        must_set_sensor(&maintainer->tracker, sensor);
     }
     if (maintainer->gate == MAINTAIN_BEST && maintainer->is_started) {
         set_clutter(maintainer, scan,

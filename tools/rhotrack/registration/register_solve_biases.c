@@ -115,13 +115,6 @@ static void iterate_biases(struct register_data *data, struct segments *segments
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double one = *(const double *)a, other = *(const double *)b;
-
-    return (one > other) - (one < other);
-}
-
 /*
  * Median over the segments of chi-square divided by its degrees of freedom, which the few segments
  * that are no parabolas hardly change.
@@ -138,7 +131,7 @@ static double median_chi2_ratio(const struct segments *segments)
         }
     }
     if (count > 0) {
-        qsort(ratios, count, sizeof *ratios, by_value);
+        qsort(ratios, count, sizeof *ratios, compare_doubles);
         median = ratios[count / 2];
     }
     free(ratios);

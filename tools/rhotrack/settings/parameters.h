@@ -445,6 +445,12 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
 void parameters_sensor_or_default(const struct parameters *parameters, int32_t sensor_id,
                                   struct rho_sensor *sensor);
 
+/*
+ * Describes a sensor to the tracker; called before each of its scans, as it may move. Exit 2 where
+ * there are more than RHO_MAX_SENSORS.
+ */
+void must_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor);
+
 /* The library's settings from the parameters, checked by parameters_check_together; exit 2. */
 struct rho_settings parameters_to_settings(const struct parameters *parameters);
 

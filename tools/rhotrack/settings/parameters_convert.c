@@ -291,3 +291,14 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
     parameters_sensor_or_default(parameters, sensor_id, sensor);
     return true;
 }
+
+void must_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
+{
+    const enum rho_status status = rho_tracker_set_sensor(tracker, sensor);
+
+    if (status == RHO_ERROR_CAPACITY) {
+        fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
+             RHO_MAX_SENSORS);
+    }
+    must_succeed(status, "sensor");
+}

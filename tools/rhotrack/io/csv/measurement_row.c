@@ -229,11 +229,8 @@ static bool read_cartesian_plot(const struct row_reading *reading, struct measur
 
 static bool read_range(const struct row_reading *reading, float *range_m)
 {
-    if (!row_read_float(&reading->cells, COL_RANGE_M, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
-                        range_m)) {
-        return false;
-    }
-    return *range_m > 0.0f || row_refuse_cell(&reading->cells, COL_RANGE_M, "is not above 0");
+    return row_read_position(&reading->cells, COL_RANGE_M, range_m) &&
+           (*range_m > 0.0f || row_refuse_cell(&reading->cells, COL_RANGE_M, "is not above 0"));
 }
 
 static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)

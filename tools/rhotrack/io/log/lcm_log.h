@@ -16,7 +16,6 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#define LCM_LOG_SYNC UINT32_C(0xEDA1DA01)
 #define LCM_LOG_HEADER_BYTES 28u
 /* offsets in an event's header: length of the channel, length of the data */
 #define LCM_LOG_CHANNEL_AT 20u
