@@ -44,12 +44,12 @@ void rho_gate_box(const struct rho_gate *gate, float sigma_max_m, float offset_m
     for (int axis = 0; axis < 2; axis++) {
         float mixed = p[RHO_AT(axis + 3, axis)], speed_mps = at->state[axis + 3];
         float spread_m2 =
-            p[RHO_AT(axis, axis)] + 2.0f * offset_max_s * (mixed < 0.0f ? -mixed : mixed) +
+            p[RHO_AT(axis, axis)] + 2.0f * offset_max_s * rho_magnitude(mixed) +
             offset_max_s * offset_max_s * (p[RHO_AT(axis + 3, axis + 3)] + noise * (1.0f / 3.0f));
         /* a margin of more than rounding errors */
         half_widths_m[axis] =
             1.001f * rho_sqrt(RHO_GATE_CHI2_4D * (spread_m2 + sigma_max_m * sigma_max_m)) +
-            offset_max_s * (speed_mps < 0.0f ? -speed_mps : speed_mps);
+            offset_max_s * rho_magnitude(speed_mps);
     }
 }
 

@@ -36,7 +36,7 @@ static float squared_range_m2(struct rho_passive_offset offset)
 /* Bin of a direction, counted along the diamond |x| + |y| = 1, which needs no arctangent. */
 static unsigned direction_bin(float x, float y)
 {
-    float size_x = x < 0.0f ? -x : x, size_y = y < 0.0f ? -y : y;
+    float size_x = rho_magnitude(x), size_y = rho_magnitude(y);
     /* direction along the diamond: -1 .. 1 .. 3 from south, counter-clockwise */
     float round = y / (size_x + size_y);
     round = x < 0.0f ? 3.0f - round : 1.0f + round;

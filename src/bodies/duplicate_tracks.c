@@ -24,8 +24,7 @@ static struct body_offset offset_on_body(const struct rho_tracker *tracker, unsi
                 dy_m = tracks[other].kalman.state[RHO_Y] - tracks[row].kalman.state[RHO_Y];
     const float along_m = body->cos_heading * dx_m + body->sin_heading * dy_m,
                 across_m = body->cos_heading * dy_m - body->sin_heading * dx_m;
-    return (struct body_offset){along_m < 0.0f ? -along_m : along_m,
-                                across_m < 0.0f ? -across_m : across_m};
+    return (struct body_offset){rho_magnitude(along_m), rho_magnitude(across_m)};
 }
 
 /* True where two tracks may have one velocity; targets that pass each other have not. */

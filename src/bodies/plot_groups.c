@@ -36,9 +36,8 @@ static int may_be_one_target(const struct rho_look *look, struct rho_work *work,
     const float range_m = rho_sqrt(x_m * x_m + y_m * y_m) + 1e-3f;
     const float side_m = (x_m * dy_m - y_m * dx_m) / range_m;
     /* 0.41: root mean square distance of two random places on a body, over its length */
-    const float most_m =
-        rho_smaller((side_m < 0.0f ? -side_m : side_m) + a->sigma_cross_m + b->sigma_cross_m,
-                    0.41f * length_max_m);
+    const float most_m = rho_smaller(rho_magnitude(side_m) + a->sigma_cross_m + b->sigma_cross_m,
+                                     0.41f * length_max_m);
     const float across_radps = look->tracker->config.v_max_mps / (3.0f * range_m);
     const float off_mps =
         rho_measurement_innovation_mps(look->sensor, a->range_rate_mps, b->range_rate_mps);
@@ -322,8 +321,7 @@ void rho_bodies_group(struct step *step)
         look->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (is_valid) {
             look->sigma_max_m = rho_larger(look->sigma_max_m, rho_plot_sigma_m(plot));
-            look->offset_max_s =
-                rho_larger(look->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+            look->offset_max_s = rho_larger(look->offset_max_s, rho_magnitude(offset_s));
         }
     }
     rho_plots_index(step->tracker, look);

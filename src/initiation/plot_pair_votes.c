@@ -82,8 +82,7 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
         (a->yy_m2 + b->yy_m2) * per_s2 + turned, (a->zz_m2 + b->zz_m2) * per_s2};
     if (place->has_z) {
         place->vz_mps = (kernel->to->z_m - kernel->from->z_m) * per_s;
-        over_mps = (place->vz_mps < 0.0f ? -place->vz_mps : place->vz_mps) -
-                   CLIMB_SHARE * search->initiator->config.v_max_mps;
+        over_mps = rho_magnitude(place->vz_mps) - CLIMB_SHARE * search->initiator->config.v_max_mps;
     }
     const int climbs_too_fast =
         over_mps > 0.0f && over_mps * over_mps > RHO_GATE_CHI2_1D * place->velocity_noise.zz_m2;

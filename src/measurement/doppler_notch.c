@@ -27,7 +27,7 @@ static float normal_density(float sigmas)
  */
 static float normal_cdf(float sigmas, float density)
 {
-    const float k = 1.0f / (1.0f + 0.2316419f * (sigmas < 0.0f ? -sigmas : sigmas));
+    const float k = 1.0f / (1.0f + 0.2316419f * rho_magnitude(sigmas));
     const float beyond =
         density * k *
         (0.31938153f +

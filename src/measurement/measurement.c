@@ -138,11 +138,6 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     return RHO_OK;
 }
 
-static int are_equal(float a, float b)
-{
-    return a <= b && a >= b;
-}
-
 /* Variance of a sigma that is multiplied by its sensor's factor. */
 static float scaled_variance(float sigma_m, float factor)
 {
@@ -217,8 +212,8 @@ void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
                                                                 : most < 1.0f ? most
                                                                               : 1.0f);
     }
-    out->is_isotropic = are_equal(out->variance_m2[0], out->variance_m2[1]) &&
-                        (!out->has_z || are_equal(out->variance_m2[0], out->variance_m2[2]));
+    out->is_isotropic = rho_is_equal(out->variance_m2[0], out->variance_m2[1]) &&
+                        (!out->has_z || rho_is_equal(out->variance_m2[0], out->variance_m2[2]));
 }
 
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6])

@@ -15,11 +15,6 @@
 /* the two velocity components that span each plane */
 static const uint8_t axes_of[RHO_GATE_PLANES][2] = {{0, 1}, {0, 2}, {1, 2}};
 
-static float magnitude(float v)
-{
-    return v < 0.0f ? -v : v;
-}
-
 static float cell_centre_rad(int32_t cell, float theta_cell_rad)
 {
     return ((float)cell + 0.5f) * theta_cell_rad;
@@ -38,7 +33,7 @@ static int32_t nearest_theta_cell(float theta_rad, float theta_cell_rad, int32_t
     } else if (cell > 0 && theta_rad - (float)cell * theta_cell_rad < TIE_RAD) {
         cell -= 1;
     }
-    const float off_rad = magnitude(cell_centre_rad(cell, theta_cell_rad) - theta_rad);
+    const float off_rad = rho_magnitude(cell_centre_rad(cell, theta_cell_rad) - theta_rad);
     const float first_rad = cell_centre_rad(0, theta_cell_rad) + RHO_PI - theta_rad;
     const float last_rad = theta_rad + RHO_PI - cell_centre_rad(num - 1, theta_cell_rad);
     if (first_rad < off_rad + TIE_RAD) {
@@ -110,7 +105,7 @@ enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t plane_
 static float plane_distance_mps(const struct rho_gate_hough *hough, int plane, float a_mps,
                                 float b_mps)
 {
-    return magnitude(a_mps * hough->cos_theta[plane] + b_mps * hough->sin_theta[plane]);
+    return rho_magnitude(a_mps * hough->cos_theta[plane] + b_mps * hough->sin_theta[plane]);
 }
 
 float rho_gate_hough_distance_mps(const struct rho_gate_hough *hough, const float velocity_mps[3])

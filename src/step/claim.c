@@ -120,7 +120,7 @@ static void validate_plots(struct rho_tracker *tracker, struct rho_look *look)
         rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
         /* bounds by which gates size their search boxes */
         look->sigma_max_m = rho_larger(look->sigma_max_m, factor * rho_plot_sigma_m(plot));
-        look->offset_max_s = rho_larger(look->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+        look->offset_max_s = rho_larger(look->offset_max_s, rho_magnitude(offset_s));
         if (measures & RHO_MEASURES_Z) {
             look->sigma_max_m = rho_larger(look->sigma_max_m, factor * plot->sigma_up_m);
         }

@@ -74,7 +74,7 @@ int rho_coverage_may_see(const struct rho_look *look, const struct rho_track *tr
     if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m && !is_part) {
         return 1;
     }
-    dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's estimate may be newer than the scan */
+    dt_s = rho_magnitude(dt_s); /* the track's estimate may be newer than the scan */
     const float margin_m =
         MARGIN_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
         look->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;

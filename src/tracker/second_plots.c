@@ -60,8 +60,8 @@ static struct bin_offset plot_offset(const struct rho_sensor *sensor, const stru
     const float along_m = dx_m * view.along_x + dy_m * view.along_y;
     const float across_m = dy_m * view.along_x - dx_m * view.along_y;
     return (struct bin_offset){
-        distance_bin((along_m < 0.0f ? -along_m : along_m) / first->sigma_range_m),
-        distance_bin((across_m < 0.0f ? -across_m : across_m) / first->sigma_cross_m),
+        distance_bin(rho_magnitude(along_m) / first->sigma_range_m),
+        distance_bin(rho_magnitude(across_m) / first->sigma_cross_m),
     };
 }
 

@@ -180,7 +180,7 @@ static void count_verdict(struct rho_reflector_learning *learning,
         /* means of the distance at which witnesses passed, and of how far off the line they were */
         const float image_off_m = witness->off_m / (float)witness->hits;
         const float gain = 1.0f / (float)line->witnesses_for;
-        const float more_m = (off_m < 0.0f ? -off_m : off_m) - line->distance_m;
+        const float more_m = rho_magnitude(off_m) - line->distance_m;
         line->distance_m += gain * more_m;
         line->distance_m2 = (1.0f - gain) * (line->distance_m2 + gain * more_m * more_m);
         line->off_m2 += gain * (image_off_m * image_off_m - line->off_m2);

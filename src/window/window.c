@@ -141,11 +141,6 @@ static void copy_plots_into_bins(struct rho_window *window, struct rho_window_sc
     start[0] = 0;
 }
 
-static int is_equal(float a, float b)
-{
-    return a <= b && a >= b;
-}
-
 int rho_window_continues_newest(const struct rho_window *window, const struct rho_scan *scan,
                                 const struct rho_sensor *sensor)
 {
@@ -159,9 +154,9 @@ int rho_window_continues_newest(const struct rho_window *window, const struct rh
     const int is_changed =
         !sensor ? was->pd > 0.0f
                 : !(was->pd > 0.0f) ||
-                      !is_equal(was->range_rate_span_mps, sensor->range_rate_span_mps) ||
-                      !is_equal(was->x_m, sensor->x_m) || !is_equal(was->y_m, sensor->y_m) ||
-                      !is_equal(was->z_m, sensor->z_m);
+                      !rho_is_equal(was->range_rate_span_mps, sensor->range_rate_span_mps) ||
+                      !rho_is_equal(was->x_m, sensor->x_m) ||
+                      !rho_is_equal(was->y_m, sensor->y_m) || !rho_is_equal(was->z_m, sensor->z_m);
     return held->sensor.sensor_id == scan->sensor_id && !is_changed &&
            window->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&

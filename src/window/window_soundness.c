@@ -73,9 +73,8 @@ int rho_window_is_sound(const struct rho_window *window)
     if (window->num_scans > 0) {
         /* the record of the newest sector, or whole scan, must fit to the newest held scan */
         const struct rho_window_sector *newest = &window->newest;
-        const int64_t begun_us = before_us;
-        if (!rho_is_stored_time(newest->time_us) || newest->time_us < begun_us ||
-            newest->time_us - begun_us > RHO_LIMIT_OFFSET_US ||
+        if (!rho_is_stored_time(newest->time_us) || newest->time_us < before_us ||
+            newest->time_us - before_us > RHO_LIMIT_OFFSET_US ||
             !rho_are_finite(&newest->offset_min_s, 1)) {
             return 0;
         }

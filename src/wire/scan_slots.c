@@ -2,6 +2,7 @@
 /* scan_slots: the slots in which scans are assembled, and the order in which scans go out. */
 #include <string.h>
 
+#include "rhotrack/detail/approx.h"
 #include "scan_internal.h"
 
 void rho_scan_increment(uint32_t *counter)
@@ -126,15 +127,10 @@ void rho_slot_drop_waiting(struct rho_scan_assembler *assembler)
     }
 }
 
-static int is_equal(float a, float b)
-{
-    return a <= b && a >= b;
-}
-
 static int is_at_origin(const struct scan_heading *heading)
 {
-    return is_equal(heading->x_m, 0.0f) && is_equal(heading->y_m, 0.0f) &&
-           is_equal(heading->z_m, 0.0f);
+    return rho_is_equal(heading->x_m, 0.0f) && rho_is_equal(heading->y_m, 0.0f) &&
+           rho_is_equal(heading->z_m, 0.0f);
 }
 
 void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembler_slot *slot,
@@ -175,12 +171,13 @@ static int does_part_match(const struct rho_scan_assembler_slot *slot,
 {
     return slot->place.time_us == heading->place.time_us && slot->num_parts == heading->num_parts &&
            slot->measures == heading->measures &&
-           is_equal(slot->sector_from_rad, heading->sector_from_rad) &&
-           is_equal(slot->sector_to_rad, heading->sector_to_rad) &&
+           rho_is_equal(slot->sector_from_rad, heading->sector_from_rad) &&
+           rho_is_equal(slot->sector_to_rad, heading->sector_to_rad) &&
            (!RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_POLAR) ||
             is_at_origin(heading) ||
-            (is_equal(slot->sensor.x_m, heading->x_m) && is_equal(slot->sensor.y_m, heading->y_m) &&
-             is_equal(slot->sensor.z_m, heading->z_m)));
+            (rho_is_equal(slot->sensor.x_m, heading->x_m) &&
+             rho_is_equal(slot->sensor.y_m, heading->y_m) &&
+             rho_is_equal(slot->sensor.z_m, heading->z_m)));
 }
 
 void rho_slot_count_duplicate(struct rho_scan_assembler *assembler,

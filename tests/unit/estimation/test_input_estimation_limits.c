@@ -270,14 +270,6 @@ static void without_input_estimation_it_equals_the_kalman_filter(void **state)
     assert_int_equal(input.present, 0);
 }
 
-static void close_axis(struct rho_kalman *kalman, int axis)
-{
-    for (int i = 0; i < STATES; ++i) {
-        kalman->covariance[RHO_AT(axis, i)] = kalman->covariance[RHO_AT(axis + 3, i)] = 0.0f;
-    }
-    kalman->state[axis] = kalman->state[axis + 3] = 0.0f;
-}
-
 /*
  * The Kalman filter rotates its frame while this one uses rows: they agree within rounding,
  * whichever axes are open.

@@ -64,14 +64,6 @@ static struct rho_kalman estimate_about(const struct rho_plot *plot)
     return kalman;
 }
 
-static void close_axis(struct rho_kalman *kalman, int axis)
-{
-    for (int i = 0; i < STATES; ++i) {
-        kalman->covariance[RHO_AT(axis, i)] = kalman->covariance[RHO_AT(axis + 3, i)] = 0.0f;
-    }
-    kalman->state[axis] = kalman->state[axis + 3] = 0.0f;
-}
-
 /*
  * Rotations mix the axes: errors scale with the largest variance of all positions, or all
  * velocities.

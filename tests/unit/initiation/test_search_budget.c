@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "random_draws.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/snapshot.h"
 
@@ -30,13 +31,6 @@
 static struct rho_initiator initiator, other;
 static struct rho_plot plots[RHO_MAX_PLOTS];
 static uint32_t num_plots;
-static uint64_t random_state;
-
-static double uniform(double from, double to)
-{
-    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
-}
 
 static void add_plot(double x_m, double y_m, double sigma_m)
 {

@@ -8,25 +8,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "random_draws.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 
 #define PI 3.14159265358979323846
 #define ALL (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)
-
-static uint64_t seed = 1;
-
-static double uniform(double from, double to)
-{
-    seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return from + (to - from) * (double)(seed >> 11) / 9007199254740992.0;
-}
-
-static double normal(void)
-{
-    double radius = sqrt(-2.0 * log(1.0 - uniform(0.0, 1.0)));
-    return radius * cos(uniform(0.0, 2.0 * PI));
-}
 
 static struct rho_polar_plot random_polar_plot(void)
 {
