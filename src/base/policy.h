@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* policy: constants set by neither physics nor a parameter; tools/gates/mutate.py changes each. */
+/* policy: constants that no physics or parameter sets; tools/gates/mutate.py varies numbers. */
 #ifndef RHOTRACK_BASE_POLICY_H
 #define RHOTRACK_BASE_POLICY_H
 

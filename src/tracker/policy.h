@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* policy: constants that neither physics nor a parameter sets; tools/gates/mutate.py varies all. */
+/* policy: constants that no physics or parameter sets; tools/gates/mutate.py varies numbers. */
 #ifndef RHOTRACK_TRACKER_POLICY_H
 #define RHOTRACK_TRACKER_POLICY_H
 

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
- * changes each.
- */
+/* policy: constants that no physics or parameter sets; tools/gates/mutate.py varies numbers. */
 #ifndef RHOTRACK_ZONES_POLICY_H
 #define RHOTRACK_ZONES_POLICY_H
 
