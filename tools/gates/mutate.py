@@ -170,7 +170,7 @@ class SourceCopy:
         out are built with the workstation profile."""
         if not name.startswith("unit/"):
             return ""
-        is_left_out = name.rpartition("test_")[2] in self.left_out
+        is_left_out = name.removeprefix("unit/") in self.left_out
         return "workstation/" if is_left_out else "embedded/"
 
     def all_test_programs(self):
