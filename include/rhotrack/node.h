@@ -371,7 +371,7 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us);
 
 /*
  * Reception time at which rho_node_next is to be called even if no message has come; INT64_MAX:
- * only after a message. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 190 bytes.
+ * only after a message. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 200 bytes.
  */
 int64_t rho_node_due_us(const struct rho_node *node);
 
