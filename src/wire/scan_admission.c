@@ -4,24 +4,7 @@
 #include "policy.h"
 #include "scan_internal.h"
 
-enum { SECOND_US = 1000000, SEEN_SCANS = 32 /* scan numbers in source.seen: its bits */ };
-
-/* Flood */
-
-int rho_scan_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count, uint32_t per_s,
-                         int64_t now_us)
-{
-    /* A reception clock that went back fills the bucket at once, not when it has caught up. */
-    if (rho_elapsed_us(now_us, bucket->full_us) >= SECOND_US || now_us < bucket->full_us) {
-        bucket->full_us = now_us;
-        bucket->left = per_s;
-    }
-    if (bucket->left < count) {
-        return 0;
-    }
-    bucket->left -= count;
-    return 1;
-}
+enum { SEEN_SCANS = 32 /* scan numbers in source.seen: its bits */ };
 
 /* Numbers */
 

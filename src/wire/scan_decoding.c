@@ -46,7 +46,19 @@ static struct scan_heading heading_of_polar_plots(const struct rho_message_polar
     };
 }
 
-enum rho_status rho_scan_decode(enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
+const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_assembler *assembler,
+                                                        int32_t sensor_id)
+{
+    for (unsigned i = 0; i < assembler->num_known; i++) {
+        if (assembler->known[i].sensor.sensor_id == sensor_id) {
+            return &assembler->known[i];
+        }
+    }
+    return &assembler->config.other;
+}
+
+enum rho_status rho_scan_decode(const struct rho_scan_assembler *assembler,
+                                enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
                                 union scan_message *message, struct scan_heading *heading)
 {
     enum rho_status status;
@@ -78,7 +90,15 @@ enum rho_status rho_scan_decode(enum rho_scan_assembler_kind kind, const uint8_t
             *heading = heading_of_polar_plots(&message->polar);
         }
     }
-    return status;
+    if (status != RHO_OK) {
+        return status;
+    }
+    /* cannot overflow: a valid time is within RHO_LIMIT_TIME_US */
+    int64_t *time_us = &heading->place.time_us;
+    *time_us -=
+        rho_measurement_time_bias_us(&rho_scan_sensor(assembler, heading->sensor_id)->sensor);
+    return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US ? RHO_OK
+                                                                           : RHO_ERROR_VALUE;
 }
 
 /* Plots and bearings */
@@ -144,27 +164,6 @@ static void convert_polar_plots(struct rho_plot *to, unsigned count,
             to[i] = (struct rho_plot){.x_m = FLT_MAX};
         }
     }
-}
-
-const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_assembler *assembler,
-                                                        int32_t sensor_id)
-{
-    for (unsigned i = 0; i < assembler->num_known; i++) {
-        if (assembler->known[i].sensor.sensor_id == sensor_id) {
-            return &assembler->known[i];
-        }
-    }
-    return &assembler->config.other;
-}
-
-/* The subtraction cannot overflow: a valid time is within RHO_LIMIT_TIME_US. */
-int rho_scan_subtract_time_bias(const struct rho_scan_assembler *assembler,
-                                struct scan_heading *heading)
-{
-    int64_t *time_us = &heading->place.time_us;
-    *time_us -=
-        rho_measurement_time_bias_us(&rho_scan_sensor(assembler, heading->sensor_id)->sensor);
-    return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
 }
 
 void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
