@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* show_hypotheses: a message of one track's hypotheses, model probabilities and evidence. */
+#include "rhotrack/detail/approx.h"
 #include "show_writers.h"
 
 enum {
@@ -45,18 +46,13 @@ static enum rho_status add_hypotheses(const struct rho_hypotheses *pool,
     return status;
 }
 
-static float clamp_to_one(float share)
-{
-    return share < 1.0f ? share : 1.0f;
-}
-
 static void set_evidence(struct rho_message_hypotheses_head *head, int8_t kind, float support,
                          float shared, float clutter)
 {
     head->evidence = kind;
-    head->support = clamp_to_one(support);
-    head->shared = clamp_to_one(shared);
-    head->clutter = clamp_to_one(clutter);
+    head->support = rho_smaller(support, 1.0f);
+    head->shared = rho_smaller(shared, 1.0f);
+    head->clutter = rho_smaller(clutter, 1.0f);
 }
 
 /* Sets the evidence of the track, or of the line that started it in this step, where known. */
@@ -82,16 +78,15 @@ static void find_evidence(const struct rho_show_source *source, unsigned track,
     }
 }
 
-const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsigned track,
-                                      const struct rho_show_output *output)
+enum rho_status rho_show_write_hypotheses(const struct rho_show_source *source, unsigned track,
+                                          struct rho_show_output *output)
 {
     if (track >= source->tracker->num_tracks) {
-        return NULL;
+        return RHO_ERROR_STATE;
     }
     const struct rho_track *at = &source->tracker->tracks[track];
     const struct rho_hypotheses *pool = &source->tracker->hypotheses;
     const int has_pool = RHO_TRACK_IS_BY(at, RHO_TRACK_HYPOTHESES);
-    struct rho_message_writer writer;
     struct rho_message_hypotheses_head head = {.utime = source->report->time_us,
                                                .scan = source->step,
                                                .epoch = source->epoch,
@@ -109,13 +104,13 @@ const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsi
             head.calm += share * (1.0f - hypothesis->imm.probability) * hypothesis->imm.calm;
         }
     }
-    head.steady = 1.0f - head.maneuver - head.calm;
-    head.steady = head.steady > 0.0f ? head.steady : 0.0f;
+    head.steady = rho_larger(1.0f - head.maneuver - head.calm, 0.0f);
     find_evidence(source, track, &head);
+    output->channel = RHO_MESSAGE_HYPOTHESES_CHANNEL;
     enum rho_status status =
-        rho_message_hypotheses_begin(&writer, output->buffer, output->capacity, &head);
+        rho_message_hypotheses_begin(&output->writer, output->buffer, output->capacity, &head);
     if (status == RHO_OK && has_pool) {
-        status = add_hypotheses(pool, at, &writer);
+        status = add_hypotheses(pool, at, &output->writer);
     } else if (status == RHO_OK) { /* the one hypothesis of a track with a single filter */
         const struct rho_message_hypothesis only = {
             .share = 1.0f,
@@ -125,9 +120,7 @@ const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsi
             .vy_mps = at->kalman.state[4],
             .maneuver_probability = at->maneuver_probability,
             .plots = {PLOT_UNKNOWN, PLOT_UNKNOWN, at->plot >= 0 ? at->plot : PLOT_NONE}};
-        status = rho_message_hypotheses_add(&writer, &only);
+        status = rho_message_hypotheses_add(&output->writer, &only);
     }
-    return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK
-               ? RHO_MESSAGE_HYPOTHESES_CHANNEL
-               : NULL;
+    return status;
 }
