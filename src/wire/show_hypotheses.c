@@ -46,36 +46,29 @@ static enum rho_status add_hypotheses(const struct rho_hypotheses *pool,
     return status;
 }
 
-static void set_evidence(struct rho_message_hypotheses_head *head, int8_t kind, float support,
-                         float shared, float clutter)
-{
-    head->evidence = kind;
-    head->support = rho_smaller(support, 1.0f);
-    head->shared = rho_smaller(shared, 1.0f);
-    head->clutter = rho_smaller(clutter, 1.0f);
-}
-
 /* Sets the evidence of the track, or of the line that started it in this step, where known. */
 static void find_evidence(const struct rho_show_source *source, unsigned track,
                           struct rho_message_hypotheses_head *head)
 {
     const struct rho_paper_starts *starts = source->starts;
+    struct rho_tracker_evidence found = {0.0f, 0.0f, 0.0f};
+    if (rho_tracker_evidence_of(source->tracker, track, &found)) {
+        head->evidence = RHO_MESSAGE_HYPOTHESES_PLOTS;
+    }
     for (uint32_t i = 0; starts && starts->has_searched && i < starts->result.num_peaks; i++) {
         const struct rho_hough_memberships *sums = &starts->lines[i].line.sums;
         const float truth = (float)sums->truth, falsity = (float)sums->falsity;
         const float indeterminacy = (float)sums->indeterminacy;
         const float all = truth + indeterminacy + falsity;
         if (starts->lines[i].track_id == source->tracker->tracks[track].track_id && all > 0.0f) {
-            set_evidence(head, RHO_MESSAGE_HYPOTHESES_LINE, truth / all, indeterminacy / all,
-                         falsity / all);
-            return;
+            found = (struct rho_tracker_evidence){truth / all, indeterminacy / all, falsity / all};
+            head->evidence = RHO_MESSAGE_HYPOTHESES_LINE;
+            break;
         }
     }
-    struct rho_tracker_evidence evidence;
-    if (rho_tracker_evidence_of(source->tracker, track, &evidence)) {
-        set_evidence(head, RHO_MESSAGE_HYPOTHESES_PLOTS, evidence.support, evidence.shared,
-                     evidence.clutter);
-    }
+    head->support = rho_smaller(found.support, 1.0f);
+    head->shared = rho_smaller(found.shared, 1.0f);
+    head->clutter = rho_smaller(found.clutter, 1.0f);
 }
 
 enum rho_status rho_show_write_hypotheses(const struct rho_show_source *source, unsigned track,
