@@ -174,21 +174,16 @@ void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
     const struct rho_scan_assembler_sensor *known = rho_scan_sensor(assembler, heading->sensor_id);
     const int is_bearings = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS);
     const unsigned room = is_bearings ? RHO_MAX_BEARINGS : RHO_MAX_PLOTS;
-    unsigned at = 0, count = heading->num_inputs, dropped = 0;
+    const unsigned all = slot->num_inputs + (unsigned)heading->num_inputs;
+    unsigned at = 0, count = heading->num_inputs;
     for (unsigned i = 0; i < heading->part; i++) {
         at += slot->parts[i] > 0 ? slot->parts[i] - 1u : 0u;
     }
     at = at < slot->num_inputs ? at : slot->num_inputs;
     unsigned behind = slot->num_inputs - at;
     /* A full slot keeps the first rows of the scan: a part in between displaces the last ones. */
-    if (at + count > room) {
-        dropped += at + count - room;
-        count = room - at;
-    }
-    if (at + count + behind > room) {
-        dropped += at + count + behind - room;
-        behind = room - at - count;
-    }
+    count = count < room - at ? count : room - at;
+    behind = behind < room - at - count ? behind : room - at - count;
     if (is_bearings) {
         const struct rho_message_bearing_scan *scan = &message->bearings;
         const float bias_rad = known->sensor.azimuth_bias_rad;
@@ -215,5 +210,6 @@ void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
     slot->num_inputs = (uint16_t)(at + count + behind);
     slot->parts[heading->part] = (uint16_t)(heading->num_inputs + 1u);
     slot->parts_here++;
-    assembler->counters.plots_no_room = rho_count(assembler->counters.plots_no_room, dropped);
+    assembler->counters.plots_no_room =
+        rho_count(assembler->counters.plots_no_room, all - slot->num_inputs);
 }
