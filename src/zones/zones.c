@@ -167,7 +167,8 @@ static void update_zone(struct rho_zones *zones, struct rho_zone_visitor *visito
     const float speed_mps = visitor->speed_mps;
     const struct rho_zone *zone = &zones->zones[place];
     struct rho_zone_counts *counts = &zones->counts[place];
-    const int was_inside = (int)(visitor->inside >> place & 1u);
+    const uint32_t bit = (uint32_t)1 << place;
+    const int was_inside = (visitor->inside & bit) != 0;
     const int inside = is_inside_polygon(zone, x_m, y_m);
     int leaves = was_inside && !inside; /* and is farther than the margin from each side */
     for (unsigned i = 0; i < zone->num_corners && leaves; i++) {
@@ -181,7 +182,7 @@ static void update_zone(struct rho_zones *zones, struct rho_zone_visitor *visito
         leaves = !(left_x_m * left_x_m + left_y_m * left_y_m <= zone->margin_m * zone->margin_m);
     }
     if (!was_inside && inside && track->status == RHO_TRACK_CONFIRMED) {
-        visitor->inside |= 1u << place;
+        visitor->inside |= bit;
         visitor->since_us[place] = zones->time_us;
         counts->entered = rho_count(counts->entered, 1);
         (void)add_event(zones, visitor, place, RHO_ZONE_ENTERS,
@@ -189,15 +190,14 @@ static void update_zone(struct rho_zones *zones, struct rho_zone_visitor *visito
     } else if (leaves) {
         const int8_t direction = direction_along_lane(zone, track, speed_mps);
         const float dwell_s = add_event(zones, visitor, place, RHO_ZONE_LEAVES, direction);
-        visitor->inside &= ~(1u << place);
-        visitor->queued &= ~(1u << place);
+        visitor->inside &= ~bit;
+        visitor->queued &= ~bit;
         counts->left = rho_count(counts->left, 1);
         counts->along = rho_count(counts->along, direction > 0);
         counts->against = rho_count(counts->against, direction < 0);
         counts->dwell_mean_s += (dwell_s - counts->dwell_mean_s) / (float)counts->left;
         counts->dwell_max_s = rho_larger(dwell_s, counts->dwell_max_s);
     }
-    const uint32_t bit = (uint32_t)1 << place;
     if (!(visitor->inside & bit)) {
         return;
     }
