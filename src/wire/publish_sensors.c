@@ -5,11 +5,6 @@
 
 #define PART_SENSORS RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS
 
-static int32_t clamp_us(uint64_t time_us)
-{
-    return (int32_t)(time_us < INT32_MAX ? time_us : INT32_MAX);
-}
-
 int rho_publish_sensor(const struct rho_scan_assembler *assembler,
                        const struct rho_tracker *tracker, int64_t now_us, unsigned place,
                        struct rho_message_sensor *sensor)
@@ -29,8 +24,8 @@ int rho_publish_sensor(const struct rho_scan_assembler *assembler,
         .is_off_clock = source->off_clock > 0,
         .scans = source->scans,
         .scan_utime = source->place.time_us,
-        .heard_age_us = clamp_us(age_us),
-        .interval_us = clamp_us(source->interval_us),
+        .heard_age_us = (int32_t)(age_us < INT32_MAX ? age_us : INT32_MAX),
+        .interval_us = rho_clamp_to_int32(source->interval_us),
     };
     if (RHO_SECTORS && tracker && source->kind != RHO_SCAN_ASSEMBLER_BEARINGS) {
         const struct rho_tracker_look *look = rho_tracker_look_of(tracker, source->sensor_id);
