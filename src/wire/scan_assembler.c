@@ -199,18 +199,6 @@ static void refuse_scan(struct rho_scan_assembler *assembler,
     }
 }
 
-static void open_accepted_scan(struct rho_scan_assembler *assembler,
-                               const struct rho_scan_assembler_source *source,
-                               const struct scan_heading *heading,
-                               const union scan_message *message, enum slot_order order,
-                               int64_t now_us)
-{
-    struct rho_scan_assembler_slot *slot = rho_slot_in_state(assembler, SLOT_FREE);
-    rho_scan_increment(&assembler->counters.scans_accepted);
-    rho_slot_open(assembler, slot, source, heading, order);
-    rho_slot_add_part(assembler, slot, heading, message, now_us);
-}
-
 /*
  * 1 where the config allows or describes the sensor of a message, unless a live sensor of another
  * kind has the number: the config names that one.
@@ -273,7 +261,8 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
         if (rho_slot_in_state(assembler, SLOT_FREE) &&
             (heading->num_parts <= 1 || !rho_slot_has_out_of_sequence(assembler, source))) {
             rho_scan_mark_received(source, heading->place.scan);
-            open_accepted_scan(assembler, source, heading, message, ORDER_OUT_OF_SEQUENCE, now_us);
+            slot = rho_slot_open(assembler, source, heading, ORDER_OUT_OF_SEQUENCE);
+            rho_slot_add_part(assembler, slot, heading, message, now_us);
         }
         return RHO_OK;
     }
@@ -321,7 +310,8 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
     if (clock == CLOCK_OTHER) {
         rho_scan_increment(&counters->clock_jumps);
     } else if (admit_in_turn(assembler, heading, is_newcomer)) {
-        open_accepted_scan(assembler, place, heading, message, ORDER_NEXT, now_us);
+        slot = rho_slot_open(assembler, place, heading, ORDER_NEXT);
+        rho_slot_add_part(assembler, slot, heading, message, now_us);
     } else {
         place->check = CHECK_NOT_ADMITTED;
     }

@@ -177,10 +177,11 @@ int rho_slot_has_out_of_sequence(const struct rho_scan_assembler *assembler,
 struct rho_scan_assembler_slot *rho_slot_find_spare(struct rho_scan_assembler *assembler,
                                                     int64_t now_us);
 
-/* Begins a scan in a free slot, without any of its parts. */
-void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembler_slot *slot,
-                   const struct rho_scan_assembler_source *source,
-                   const struct scan_heading *heading, enum slot_order order);
+/* Begins an accepted scan in a free slot, which there is, without any of its parts. */
+struct rho_scan_assembler_slot *rho_slot_open(struct rho_scan_assembler *assembler,
+                                              const struct rho_scan_assembler_source *source,
+                                              const struct scan_heading *heading,
+                                              enum slot_order order);
 
 /* Ends the wait for parts of a sensor's open scans; numbers_restart: its numbers begin anew. */
 void rho_slot_complete_all(struct rho_scan_assembler *assembler,

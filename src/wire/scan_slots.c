@@ -133,10 +133,12 @@ static int is_at_origin(const struct scan_heading *heading)
            rho_is_equal(heading->z_m, 0.0f);
 }
 
-void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembler_slot *slot,
-                   const struct rho_scan_assembler_source *source,
-                   const struct scan_heading *heading, enum slot_order order)
+struct rho_scan_assembler_slot *rho_slot_open(struct rho_scan_assembler *assembler,
+                                              const struct rho_scan_assembler_source *source,
+                                              const struct scan_heading *heading,
+                                              enum slot_order order)
 {
+    struct rho_scan_assembler_slot *slot = rho_slot_in_state(assembler, SLOT_FREE);
     const struct rho_scan_assembler_sensor *known = rho_scan_sensor(assembler, heading->sensor_id);
     const int is_bearings = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS);
     const int has_place = !is_at_origin(heading);
@@ -161,6 +163,8 @@ void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembl
     slot->has_sensor = (uint8_t)(known != &assembler->config.other ||
                                  assembler->config.gives_other || (has_place && !is_bearings));
     slot->state = SLOT_OPEN;
+    rho_scan_increment(&assembler->counters.scans_accepted);
+    return slot;
 }
 
 /* Parts */
