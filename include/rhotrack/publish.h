@@ -215,9 +215,7 @@ struct rho_show_source {
 
 struct rho_show_rate {
     int64_t since_us; /* time now_us up to which credit_us was counted */
-    /*
-     * credit for sending: time without messages, at most a second; below 0: the rate was exceeded
-     */
+    /* credit for sending: time without messages, a second at most; below 0: the rate is exceeded */
     int64_t credit_us;
     uint32_t not_sent; /* messages that were left out since rho_show_init; saturates */
     /* messages of this step that are still to be written; number of the next message */

@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
 #include "scan_internal.h"
 

@@ -3,8 +3,6 @@
  * show_accumulators: messages of the accumulators of the last search. A search of plots has one; a
  * search of bearings has one for all pairs of sensors together, and one for each of several pairs.
  */
-#include <string.h>
-
 #include "message_clamps.h"
 #include "rhotrack/detail/approx.h"
 #include "show_writers.h"

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * show_rates: sends ghosts, votes and hypotheses of a step as messages, each kind within its rate.
- */
+/* show_rates: sends ghosts, votes and hypotheses of a step, each kind within its rate. */
 #include "rhotrack/publish.h"
 
 #include <string.h>

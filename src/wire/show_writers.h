@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * show_writers: number and writing of the messages of each kind, for
- * show_rates.c. Messages of a step are numbered from 0.
- */
+/* show_writers: the messages of each kind, which are numbered from 0 in a step. */
 #ifndef RHOTRACK_SHOW_WRITERS_H
 #define RHOTRACK_SHOW_WRITERS_H
 
@@ -22,10 +19,7 @@ uint32_t rho_show_count_ghosts(const struct rho_show_source *source);
 enum rho_status rho_show_write_ghosts(const struct rho_show_source *source, uint32_t number,
                                       struct rho_show_output *output);
 
-/*
- * show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its
- * picture
- */
+/* show_accumulators.c: messages of accumulators; an accumulator's first one makes its picture */
 uint32_t rho_show_count_accumulators(const struct rho_show *show,
                                      const struct rho_show_source *source);
 enum rho_status rho_show_write_accumulator(struct rho_show *show,

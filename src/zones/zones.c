@@ -107,10 +107,7 @@ static float along_heading(const struct rho_zone *zone, float x, float y)
     return x * rho_cos(zone->heading_rad) + y * rho_sin(zone->heading_rad);
 }
 
-/*
- * 1 where a track moves along the zone's heading, -1 against it, 0 where it is slow or there is
- * none.
- */
+/* 1: a track moves along the zone's heading, -1: against it, 0: it is slow, or there is none. */
 static int8_t direction_along_lane(const struct rho_zone *zone,
                                    const struct rho_track_report *track, float speed_mps)
 {
