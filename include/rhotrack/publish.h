@@ -13,7 +13,8 @@
  *
  * Messages are written element by element: nothing but the buffer is needed. `step` is the number
  * of the step, one more each, and `epoch` the tracker's boot number: receivers detect missed
- * messages by them.
+ * messages by them. Functions that fill a struct leave them (scan, epoch) 0 for the caller. A
+ * sensor_id beyond int16_t becomes -1, counts stay at the largest value of their member.
  *
  * Intermediate results are sent by a `show`: ghost matrices (RHO_GHOSTS), accumulators and their
  * planes (RHO_ACCUMULATOR, RHO_PLANE), hypotheses of tracks (RHO_HYPOTHESES).
@@ -60,8 +61,7 @@ uint16_t rho_publish_num_parts(const struct rho_report *report);
 
 /*
  * Writes one part of the report's tracks (track_list_t): first the live tracks, then ended ones
- * with status DELETED and their identity alone. sensor_id beyond int16_t becomes -1, counts stay at
- * 32767.
+ * with status DELETED and their identity alone.
  *   part  0 .. rho_publish_num_parts - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the
  * message's bytes. Stack: 360 bytes.
@@ -103,8 +103,8 @@ RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *ini
 
 /*
  * Fills status_t with the counters of these objects and the numbers of tracks; an object that is
- * NULL counts as zeros. All other fields are 0: the caller fills scan, epoch, fragments_refused,
- * step_us, step_max_us and the origin. Cost: RHO_MAX_TRACKS. Stack: 120 bytes.
+ * NULL counts as zeros. fragments_refused, step_us, step_max_us and the origin are 0: the caller
+ * fills them. Cost: RHO_MAX_TRACKS. Stack: 120 bytes.
  */
 void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
@@ -112,8 +112,8 @@ void rho_publish_status(const struct rho_scan_assembler *assembler, const struct
 
 /*
  * Fills work_t with the limit on work, work_max, and its counters; a tracker that is NULL counts as
- * zeros. scan, epoch, num_steps, reports_not_printed and events_not_logged are 0: the caller fills
- * them. Constant cost. Stack: 80 bytes.
+ * zeros. num_steps, reports_not_printed and events_not_logged are 0: the caller fills them.
+ * Constant cost. Stack: 80 bytes.
  */
 void rho_publish_work(const struct rho_tracker *tracker, struct rho_message_work *work);
 
@@ -138,7 +138,7 @@ uint16_t rho_publish_num_sensor_parts(const struct rho_scan_assembler *assembler
 
 /*
  * Fills one part of the list of the sensors that the assembler hears, in the order of their places.
- * `utime` is the tracker's time, 0 without one; scan and epoch are 0: the caller fills them.
+ * `utime` is the tracker's time, 0 without one.
  *   part  0 .. rho_publish_num_sensor_parts - 1
  * Errors: NULL (assembler, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS
  * squared. Stack: 320 bytes.
@@ -149,8 +149,7 @@ RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_scan_assembl
                                                    struct rho_message_sensor_list *list);
 
 /*
- * Fills learned_t: noise and pd that the tracker has learned of one described sensor. scan and
- * epoch are 0: the caller fills them. sensor_id beyond int16_t becomes -1.
+ * Fills learned_t: noise and pd that the tracker has learned of one described sensor.
  *   place  among the tracker's sensors: 0 .. num_sensors - 1
  * Returns 0 where there is no sensor at this place, or tracker or learned is NULL; *learned is
  * unchanged then. Cost: RHO_MAX_SENSORS. Stack: 232 bytes.
@@ -165,8 +164,7 @@ int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
 uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker);
 
 /*
- * Fills one part of the list of known echoes (clutter_map_t). `utime` is the tracker's time; scan
- * and epoch are 0: the caller fills them. sensor_id beyond int16_t becomes -1, hits stay at 32767.
+ * Fills one part of the list of known echoes (clutter_map_t). `utime` is the tracker's time.
  *   part  0 .. rho_publish_num_clutter_parts - 1
  * Errors: NULL, VALUE (no such part); *list is unchanged. Cost: RHO_MAX_ECHOES. Stack: 120 bytes.
  */
@@ -175,8 +173,7 @@ RHO_MUST_CHECK enum rho_status rho_publish_clutter(const struct rho_tracker *tra
 
 /*
  * Fill the zones' counts (zone_list_t), and the entries and exits of tracks in their last step
- * (zone_event_list_t). scan and epoch are 0: the caller fills them. With zones NULL the lists are
- * empty; counters stay at INT32_MAX. Cost: zones, events. Stack: 80 bytes.
+ * (zone_event_list_t). With zones NULL the lists are empty. Cost: zones, events. Stack: 80 bytes.
  */
 void rho_publish_zones(const struct rho_zones *zones, struct rho_message_zone_list *list);
 void rho_publish_zone_events(const struct rho_zones *zones,
@@ -218,9 +215,7 @@ struct rho_show_source {
 
 struct rho_show_rate {
     int64_t since_us; /* time now_us up to which credit_us was counted */
-    /*
-     * credit for sending: time without messages, at most a second; below 0: the rate was exceeded
-     */
+    /* credit for sending: time without messages, a second at most; below 0: the rate is exceeded */
     int64_t credit_us;
     uint32_t not_sent; /* messages that were left out since rho_show_init; saturates */
     /* messages of this step that are still to be written; number of the next message */
@@ -252,7 +247,7 @@ RHO_MUST_CHECK enum rho_status rho_show_init(struct rho_show *show, size_t size,
  * Plans the messages of a step; messages of the step before that were not written are dropped.
  *   now_us  clock of the rates; where it goes back the rates begin anew
  * Nothing is planned without an initialised show, a tracker or a report. Cost: tracks, and
- * pairs of sensors. Stack: 330 bytes.
+ * pairs of sensors. Stack: 340 bytes.
  */
 void rho_show_begin(struct rho_show *show, const struct rho_show_source *source, int64_t now_us);
 

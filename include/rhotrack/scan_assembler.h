@@ -119,9 +119,7 @@ extern "C" {
 #define RHO_SCAN_ASSEMBLER_TRUST_US 600000000u
 #define RHO_SCAN_ASSEMBLER_EQUALS_US 60000000u
 
-/*
- * Noise of measurements whose message states none; each above 0 and within the limits of types.h.
- */
+/* Noise of measurements whose message states none: above 0, within the limits of types.h. */
 struct rho_scan_assembler_noise {
     float sigma_m, sigma_mps; /* noise of Cartesian plots */
     /* noise of polar plots */
@@ -147,25 +145,16 @@ struct rho_scan_assembler_config {
      * for a newer scan
      */
     int64_t hold_us;
-    /*
-     * longest delay of an out-of-sequence scan behind the newest scan that went out, 0 .. 60 s; 0:
-     * such scans are dropped
-     */
+    /* longest delay of out-of-sequence scans behind the newest given one, 0 .. 60 s; 0: dropped */
     int64_t late_max_us;
-    /*
-     * silence that ends a sensor's part in the order and clock, and largest jump of a clock, 1 s ..
-     * 1 h
-     */
+    /* silence that ends a sensor's say in order and clock, largest jump of a clock, 1 s .. 1 h */
     int64_t jump_max_us;
     uint32_t flood_per_s; /* largest number of messages of a sensor in a second, 1 .. 1e6 */
     /* scans that must agree before a restarted sensor or another clock is followed, 2 .. 255 */
     uint32_t follow_scans;
     uint16_t gives_other; /* 1: items of sensors that were not described have the sensor `other` */
     uint16_t is_record;   /* 1: scans come from a file, and no sensor is a newcomer */
-    /*
-     * largest number of plots in a second, 1 .. 1e6, of all newcomers together that the config does
-     * not name
-     */
+    /* most plots a second, 1 .. 1e6, of all newcomers together that the config does not name */
     uint32_t stranger_plots_per_s;
     uint32_t reserved; /* padding: 0 */
     /* number of sensor_ids in `allowed`, 0 .. RHO_MAX_SENSORS; 0: all sensors are allowed */
@@ -180,10 +169,7 @@ struct rho_scan_assembler_config {
 struct rho_scan_assembler_counters {
     uint32_t messages_bad; /* messages with an invalid length, count, value or sensor number */
     uint32_t messages_wrong_type; /* messages whose fingerprint is not that of the channel */
-    /*
-     * messages beyond flood_per_s; and newcomers' messages beyond stranger_plots_per_s, or out of
-     * turn
-     */
+    /* messages beyond flood_per_s; newcomers' beyond stranger_plots_per_s, or out of turn */
     uint32_t messages_flooded;
     uint32_t messages_not_allowed; /* messages of a sensor that is not in `allowed` */
     uint32_t scans_accepted;       /* scans of which a first part was accepted */
@@ -259,10 +245,7 @@ struct rho_scan_assembler_source {
     uint32_t seen;    /* bit i is set: scan number place.scan - i was received */
     uint32_t skipped; /* bit i is set: scan number place.scan - i was skipped, and may still come */
     uint32_t interval_us; /* smoothed time from one scan number to the next; 0: not known yet */
-    /*
-     * time for which the sensor was heard, by the reception clock, up to
-     * RHO_SCAN_ASSEMBLER_TRUST_US
-     */
+    /* time for which it was heard, by the reception clock, up to RHO_SCAN_ASSEMBLER_TRUST_US */
     uint32_t known_us;
     /* private: checksum of the newest scan's first part, as it was received first */
     uint32_t check;

@@ -67,10 +67,7 @@ struct rho_zone_event {
     int32_t zone_id;
     uint32_t track_id;
     uint8_t change; /* enum rho_zone_change: what the track did */
-    /*
-     * 1: the track goes along the lane's heading, -1: against it; 0: it stands, or the zone is no
-     * lane
-     */
+    /* 1: the track goes along the lane, -1: against it; 0: it stands, or the zone is no lane */
     int8_t direction;
     float speed_mps; /* speed of the track; of an ended track its last speed */
     float dwell_s;   /* time since the track entered the zone */
@@ -83,10 +80,7 @@ struct rho_zone_counts {
     uint32_t along, against; /* tracks that left along the lane's heading, and against it */
     uint16_t inside, queued; /* tracks inside now, and in the queue */
     float speed_mps;         /* mean speed of the tracks inside; 0 where there are none */
-    /*
-     * distance from the first queued track to the last along the heading; without a lane, the
-     * diagonal of their extent
-     */
+    /* first to last queued track along the lane; without a lane, the diagonal of their extent */
     float queue_m;
     float dwell_mean_s, dwell_max_s; /* mean and longest time inside of the tracks that left */
 };

@@ -7,27 +7,6 @@
 
 /* Numbers, big endian */
 
-static uint8_t *put16(uint8_t *to, uint16_t v)
-{
-    to[0] = (uint8_t)(v >> 8);
-    to[1] = (uint8_t)v;
-    return to + 2;
-}
-
-static uint8_t *put32(uint8_t *to, uint32_t v)
-{
-    to[0] = (uint8_t)(v >> 24);
-    to[1] = (uint8_t)(v >> 16);
-    to[2] = (uint8_t)(v >> 8);
-    to[3] = (uint8_t)v;
-    return to + 4;
-}
-
-static uint8_t *put64(uint8_t *to, uint64_t v)
-{
-    return put32(put32(to, (uint32_t)(v >> 32)), (uint32_t)v);
-}
-
 static uint16_t get16(const uint8_t *from)
 {
     return (uint16_t)((unsigned)from[0] << 8 | from[1]);
@@ -43,97 +22,60 @@ static uint64_t get64(const uint8_t *from)
     return (uint64_t)get32(from) << 32 | get32(from + 4);
 }
 
-/* Members of one width */
-
-static uint8_t *encode_members(uint8_t *to, const uint8_t *from, unsigned width, size_t count)
+/*
+ * Copies members of one width from memory to the wire or back. Both are the same copy: the bytes of
+ * a number are reversed on a little-endian machine, and stay in order on a big-endian one.
+ */
+static void copy_members(uint8_t *to, const uint8_t *from, unsigned width, size_t count)
 {
-    uint16_t v16;
-    uint32_t v32;
-    uint64_t v64;
-    if (width == 4) { /* most members are 4 bytes wide */
-        for (size_t i = 0; i < count; i++) {
-            memcpy(&v32, from + 4 * i, sizeof v32);
-            to = put32(to, v32);
-        }
-        return to;
+    for (; width == 4 && count > 0; count--, from += 4, to += 4) { /* most are 4 bytes wide */
+        const uint32_t v32 = get32(from);
+        memcpy(to, &v32, sizeof v32);
     }
-    for (size_t i = 0; i < count; i++, from += width) {
+    for (; count > 0; count--, from += width, to += width) {
         if (width == 8) {
-            memcpy(&v64, from, sizeof v64);
-            to = put64(to, v64);
-        } else if (width == 2) {
-            memcpy(&v16, from, sizeof v16);
-            to = put16(to, v16);
-        } else {
-            *to++ = *from;
-        }
-    }
-    return to;
-}
-
-static const uint8_t *decode_members(const uint8_t *from, uint8_t *to, unsigned width, size_t count)
-{
-    uint16_t v16;
-    uint32_t v32;
-    uint64_t v64;
-    if (width == 4) {
-        for (size_t i = 0; i < count; i++) {
-            v32 = get32(from + 4 * i);
-            memcpy(to + 4 * i, &v32, sizeof v32);
-        }
-        return from + 4 * count;
-    }
-    for (size_t i = 0; i < count; i++, from += width, to += width) {
-        if (width == 8) {
-            v64 = get64(from);
+            const uint64_t v64 = get64(from);
             memcpy(to, &v64, sizeof v64);
         } else if (width == 2) {
-            v16 = get16(from);
+            const uint16_t v16 = get16(from);
             memcpy(to, &v16, sizeof v16);
         } else {
             *to = *from;
         }
     }
-    return from;
 }
 
 /* Structs */
 
-static uint8_t *encode_struct(uint8_t *to, const uint8_t *from, const struct message_layout *layout)
+enum direction { TO_WIRE, FROM_WIRE };
+
+static void copy_struct(enum direction direction, uint8_t *to, const uint8_t *from,
+                        const struct message_layout *layout)
 {
-    const struct message_run *run = layout->runs;
-    for (unsigned i = 0; i < layout->num_runs; i++, run++) {
-        to = encode_members(to, from + run->offset, run->width, run->count);
+    const struct message_run *end = layout->runs + layout->num_runs;
+    for (const struct message_run *run = layout->runs; run < end; run++) {
+        if (direction == TO_WIRE) {
+            copy_members(to, from + run->offset, run->width, run->count);
+            to += (size_t)run->width * run->count;
+        } else {
+            copy_members(to + run->offset, from, run->width, run->count);
+            from += (size_t)run->width * run->count;
+        }
     }
-    return to;
 }
 
-static const uint8_t *decode_struct(const uint8_t *from, uint8_t *to,
-                                    const struct message_layout *layout)
+static void copy_list(enum direction direction, uint8_t *to, const uint8_t *from,
+                      const struct message_format *format, size_t count)
 {
-    const struct message_run *run = layout->runs;
-    for (unsigned i = 0; i < layout->num_runs; i++, run++) {
-        from = decode_members(from, to + run->offset, run->width, run->count);
-    }
-    return from;
-}
-
-/* 1 where each list element is one run without gaps, so that the whole list is one long run. */
-static int is_list_one_run(const struct message_format *format)
-{
-    return format->element.num_runs == 1 && format->element.wire_bytes == format->element_bytes;
-}
-
-static void encode_list(uint8_t *to, const uint8_t *list, const struct message_format *format,
-                        size_t count)
-{
-    const struct message_run *run = format->element.runs;
-    if (is_list_one_run(format)) {
-        (void)encode_members(to, list, run->width, count * run->count);
+    const struct message_layout *element = &format->element;
+    if (element->num_runs == 1 && element->wire_bytes == format->element_bytes) { /* one long run */
+        copy_members(to, from, element->runs->width, count * element->runs->count);
         return;
     }
-    for (size_t i = 0; i < count; i++) {
-        to = encode_struct(to, list + i * format->element_bytes, &format->element);
+    for (; count > 0; count--) {
+        copy_struct(direction, to, from, element);
+        to += direction == TO_WIRE ? element->wire_bytes : format->element_bytes;
+        from += direction == TO_WIRE ? format->element_bytes : element->wire_bytes;
     }
 }
 
@@ -155,11 +97,21 @@ static size_t head_bytes(const struct message_format *format)
            (format->max > 0 ? MESSAGE_COUNT_BYTES : 0u);
 }
 
-static uint8_t *encode_head(uint8_t *to, const uint8_t *message,
-                            const struct message_format *format, uint16_t count)
+static void encode_count(uint8_t *buffer, const struct message_format *format, uint16_t count)
 {
-    to = encode_struct(put64(to, format->fingerprint), message, &format->head);
-    return format->max > 0 ? put16(to, count) : to;
+    uint8_t *to = buffer + head_bytes(format) - MESSAGE_COUNT_BYTES;
+    to[0] = (uint8_t)(count >> 8);
+    to[1] = (uint8_t)count;
+}
+
+static void encode_head(uint8_t *buffer, const uint8_t *message,
+                        const struct message_format *format, uint16_t count)
+{
+    if (format->max > 0) {
+        encode_count(buffer, format, count);
+    }
+    copy_members(buffer, (const uint8_t *)&format->fingerprint, MESSAGE_FINGERPRINT_BYTES, 1);
+    copy_struct(TO_WIRE, buffer + MESSAGE_FINGERPRINT_BYTES, message, &format->head);
 }
 
 enum rho_status rho_message_encode(const struct message_format *format, const void *message,
@@ -169,19 +121,20 @@ enum rho_status rho_message_encode(const struct message_format *format, const vo
     if (!message || !buffer || !size) {
         return RHO_ERROR_NULL;
     }
-    if (stated_count(format, bytes) < 0 || stated_count(format, bytes) > format->max) {
+    const int count = stated_count(format, bytes);
+    if (count < 0 || count > format->max) {
         return RHO_ERROR_COUNT;
     }
-    const size_t count = (size_t)stated_count(format, bytes);
-    const size_t total = head_bytes(format) + count * format->element.wire_bytes;
+    const size_t head = head_bytes(format);
+    const size_t total = head + (size_t)count * format->element.wire_bytes;
     if (total > capacity) {
         return RHO_ERROR_CAPACITY;
     }
-    uint8_t *to = encode_head(buffer, bytes, format, (uint16_t)count);
-    if (count > 0) {
-        encode_list(to, bytes + format->list_offset, format, count);
-    }
     *size = total;
+    encode_head(buffer, bytes, format, (uint16_t)count);
+    if (count > 0) {
+        copy_list(TO_WIRE, buffer + head, bytes + format->list_offset, format, (size_t)count);
+    }
     return RHO_OK;
 }
 
@@ -197,7 +150,7 @@ enum rho_status rho_message_begin(const struct message_format *format,
     if (head_bytes(format) > capacity) {
         return RHO_ERROR_CAPACITY;
     }
-    (void)encode_head(buffer, head, format, 0);
+    encode_head(buffer, head, format, 0);
     *writer = (struct rho_message_writer){.buffer = buffer,
                                           .capacity = capacity,
                                           .size = head_bytes(format),
@@ -218,10 +171,10 @@ enum rho_status rho_message_add(const struct message_format *format,
         writer->capacity - writer->size < format->element.wire_bytes) {
         return RHO_ERROR_CAPACITY;
     }
-    encode_list(writer->buffer + writer->size, element, format, 1);
+    copy_list(TO_WIRE, writer->buffer + writer->size, element, format, 1);
     writer->size += format->element.wire_bytes;
     writer->count++;
-    (void)put16(writer->buffer + head_bytes(format) - MESSAGE_COUNT_BYTES, writer->count);
+    encode_count(writer->buffer, format, writer->count);
     return RHO_OK;
 }
 
@@ -269,20 +222,11 @@ enum rho_status rho_message_decode(const struct message_format *format, const ui
     if (size - head != rest) {
         return size - head < rest ? RHO_ERROR_SHORT : RHO_ERROR_TRAILING;
     }
-    const uint8_t *from = decode_struct(data + MESSAGE_FINGERPRINT_BYTES, bytes, &format->head);
+    copy_struct(FROM_WIRE, bytes, data + MESSAGE_FINGERPRINT_BYTES, &format->head);
     if (format->max > 0) {
         const int16_t stored = (int16_t)count;
-        const struct message_run *run = format->element.runs;
-        uint8_t *list = bytes + format->list_offset;
         memcpy(bytes + format->count_offset, &stored, sizeof stored);
-        from += MESSAGE_COUNT_BYTES;
-        if (is_list_one_run(format)) {
-            (void)decode_members(from, list, run->width, count * run->count);
-            return RHO_OK;
-        }
-        for (size_t i = 0; i < count; i++) {
-            from = decode_struct(from, list + i * format->element_bytes, &format->element);
-        }
+        copy_list(FROM_WIRE, bytes + format->list_offset, data + head, format, count);
     }
     return RHO_OK;
 }

@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* publish_sensors: messages of the state of each sensor: reception, clock, and sensor health. */
+/* publish_sensors: messages of each sensor: reception, clock, health, and learned noise and pd. */
 #include "message_clamps.h"
 #include "rhotrack/publish.h"
 
 #define PART_SENSORS RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS
-
-static int32_t clamp_us(uint64_t time_us)
-{
-    return (int32_t)(time_us < INT32_MAX ? time_us : INT32_MAX);
-}
 
 int rho_publish_sensor(const struct rho_scan_assembler *assembler,
                        const struct rho_tracker *tracker, int64_t now_us, unsigned place,
@@ -29,8 +24,8 @@ int rho_publish_sensor(const struct rho_scan_assembler *assembler,
         .is_off_clock = source->off_clock > 0,
         .scans = source->scans,
         .scan_utime = source->place.time_us,
-        .heard_age_us = clamp_us(age_us),
-        .interval_us = clamp_us(source->interval_us),
+        .heard_age_us = (int32_t)(age_us < INT32_MAX ? age_us : INT32_MAX),
+        .interval_us = rho_clamp_to_int32(source->interval_us),
     };
     if (RHO_SECTORS && tracker && source->kind != RHO_SCAN_ASSEMBLER_BEARINGS) {
         const struct rho_tracker_look *look = rho_tracker_look_of(tracker, source->sensor_id);
@@ -86,4 +81,30 @@ enum rho_status rho_publish_sensors(const struct rho_scan_assembler *assembler,
         }
     }
     return RHO_OK;
+}
+
+int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
+                        struct rho_message_learned *learned)
+{
+    struct rho_tracker_known known;
+    const struct rho_sensor *sensor =
+        tracker && place < tracker->num_sensors ? &tracker->sensors[place].sensor : NULL;
+
+    if (!learned || !sensor || rho_tracker_known_of(tracker, sensor->sensor_id, &known) != RHO_OK) {
+        return 0;
+    }
+    *learned = (struct rho_message_learned){
+        .utime = tracker->time_us,
+        .sensor_id = rho_clamp_sensor_id(sensor->sensor_id),
+        .innovations = rho_clamp_to_int16(known.innovations),
+        .sigma_range_factor = known.range_factor,
+        .sigma_cross_factor = known.cross_factor,
+        .looks = (int32_t)known.looks,
+        .range_max_m = sensor->range_max_m,
+        .pd_stated = sensor->pd,
+    };
+    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        learned->pd[ring] = known.pd[ring];
+    }
+    return 1;
 }

@@ -4,24 +4,7 @@
 #include "policy.h"
 #include "scan_internal.h"
 
-enum { SECOND_US = 1000000, SEEN_SCANS = 32 /* scan numbers in source.seen: its bits */ };
-
-/* Flood */
-
-int rho_scan_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count, uint32_t per_s,
-                         int64_t now_us)
-{
-    /* A reception clock that went back fills the bucket at once, not when it has caught up. */
-    if (rho_elapsed_us(now_us, bucket->full_us) >= SECOND_US || now_us < bucket->full_us) {
-        bucket->full_us = now_us;
-        bucket->left = per_s;
-    }
-    if (bucket->left < count) {
-        return 0;
-    }
-    bucket->left -= count;
-    return 1;
-}
+enum { SEEN_SCANS = 32 /* scan numbers in source.seen: its bits */ };
 
 /* Numbers */
 
@@ -217,22 +200,6 @@ void rho_scan_remember_refused(const struct rho_scan_assembler_config *config,
     source->strays[0] = (struct rho_scan_assembler_stray){.place = *place, .scans = scans};
 }
 
-/*
- * Divides 64 bits by a divisor below 65536, sixteen bits at a time: the compiler's own division of
- * 64 bits is 900 bytes of code.
- */
-static uint64_t divide_by_16_bits(uint64_t value, uint32_t by)
-{
-    uint64_t quotient = 0;
-    uint32_t rest = 0;
-    for (int shift = 48; shift >= 0; shift -= 16) {
-        rest = rest << 16 | (uint32_t)(value >> shift & 0xffffu);
-        quotient |= (uint64_t)(rest / by) << shift;
-        rest %= by;
-    }
-    return quotient;
-}
-
 uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
                              struct rho_scan_assembler_source *source,
                              const struct rho_scan_assembler_place *place,
@@ -244,9 +211,9 @@ uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
     const int is_next = verdict == SCAN_NEXT && source->scans > 0;
     const int32_t ahead = scan_number_difference(place->scan, from->scan);
     if (is_next || stray) {
-        /* the time that it took and ahead are above 0, as the scan follows the one before */
-        const int64_t interval_us =
-            (int64_t)divide_by_16_bits((uint64_t)(place->time_us - from->time_us), (uint32_t)ahead);
+        /* the scan follows the one before: ahead is above 0, and jump_max_us fits 32 bits */
+        const uint32_t took_us = (uint32_t)(place->time_us - from->time_us);
+        const int64_t interval_us = took_us / (uint32_t)ahead;
         int64_t mean_us = source->interval_us;
         mean_us = is_next && mean_us > 0 ? mean_us + (interval_us - mean_us) / 4 : interval_us;
         source->interval_us = (uint32_t)(mean_us > 0 ? mean_us : 1);

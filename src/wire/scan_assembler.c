@@ -3,11 +3,10 @@
 
 #include <string.h>
 
-#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
 #include "scan_internal.h"
 
-enum { MAGIC = 0x66656564, SECOND_US = 1000000, PER_S_MAX = 1000000 };
+enum { SECOND_US = 1000000, PER_S_MAX = 1000000 };
 
 typedef char rho_scan_assembler_fits_its_formula
     [sizeof(struct rho_scan_assembler) <= RHO_RAM_SCAN_ASSEMBLER_BYTES ? 1 : -1];
@@ -78,7 +77,7 @@ enum rho_status rho_scan_assembler_init(struct rho_scan_assembler *assembler, si
     assembler->strangers.left = config->flood_per_s;
     assembler->stranger_plots.left = config->stranger_plots_per_s;
     assembler->out_us = INT64_MIN;
-    assembler->magic = MAGIC;
+    assembler->magic = SCAN_MAGIC;
     return RHO_OK;
 }
 
@@ -88,7 +87,7 @@ enum rho_status rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembl
     if (!assembler || !sensor) {
         return RHO_ERROR_NULL;
     }
-    if (assembler->magic != MAGIC) {
+    if (assembler->magic != SCAN_MAGIC) {
         return RHO_ERROR_STATE;
     }
     if (!is_usable_sensor(sensor)) {
@@ -181,8 +180,7 @@ static void refuse_scan(struct rho_scan_assembler *assembler,
                         const struct scan_heading *heading)
 {
     struct rho_scan_assembler_counters *counters = &assembler->counters;
-    if (FOLLOWS_REPEATS && (verdict == SCAN_DUPLICATE || verdict == SCAN_TOO_LATE) &&
-        rho_scan_may_begin_sequence(&assembler->config, source, &heading->place, verdict)) {
+    if (rho_scan_may_begin_sequence(&assembler->config, source, &heading->place, verdict)) {
         rho_scan_remember_refused(&assembler->config, source, &heading->place);
     }
     if (verdict == SCAN_DUPLICATE && source->off_clock > 0) {
@@ -195,22 +193,9 @@ static void refuse_scan(struct rho_scan_assembler *assembler,
     } else if (verdict == SCAN_TOO_LATE) {
         rho_scan_increment(&counters->scans_late);
     } else {
-        rho_scan_remember_refused(&assembler->config, source, &heading->place);
         rho_scan_increment(verdict == SCAN_WRONG_TIME ? &counters->clock_jumps
                                                       : &counters->scans_bad);
     }
-}
-
-static void open_accepted_scan(struct rho_scan_assembler *assembler,
-                               const struct rho_scan_assembler_source *source,
-                               const struct scan_heading *heading,
-                               const union scan_message *message, enum slot_order order,
-                               int64_t now_us)
-{
-    struct rho_scan_assembler_slot *slot = rho_slot_in_state(assembler, SLOT_FREE);
-    rho_scan_increment(&assembler->counters.scans_accepted);
-    rho_slot_open(assembler, slot, source, heading, order);
-    rho_slot_add_part(assembler, slot, heading, message, now_us);
 }
 
 /*
@@ -275,7 +260,8 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
         if (rho_slot_in_state(assembler, SLOT_FREE) &&
             (heading->num_parts <= 1 || !rho_slot_has_out_of_sequence(assembler, source))) {
             rho_scan_mark_received(source, heading->place.scan);
-            open_accepted_scan(assembler, source, heading, message, ORDER_OUT_OF_SEQUENCE, now_us);
+            slot = rho_slot_open(assembler, source, heading, ORDER_OUT_OF_SEQUENCE);
+            rho_slot_add_part(assembler, slot, heading, message, now_us);
         }
         return RHO_OK;
     }
@@ -323,11 +309,28 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
     if (clock == CLOCK_OTHER) {
         rho_scan_increment(&counters->clock_jumps);
     } else if (admit_in_turn(assembler, heading, is_newcomer)) {
-        open_accepted_scan(assembler, place, heading, message, ORDER_NEXT, now_us);
+        slot = rho_slot_open(assembler, place, heading, ORDER_NEXT);
+        rho_slot_add_part(assembler, slot, heading, message, now_us);
     } else {
         place->check = CHECK_NOT_ADMITTED;
     }
     return RHO_OK;
+}
+
+/* Takes count tokens out of a rate limit's bucket; 0: it holds fewer, and is unchanged. */
+static int take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count, uint32_t per_s,
+                       int64_t now_us)
+{
+    /* A reception clock that went back fills the bucket at once, not when it has caught up. */
+    if (rho_elapsed_us(now_us, bucket->full_us) >= SECOND_US || now_us < bucket->full_us) {
+        bucket->full_us = now_us;
+        bucket->left = per_s;
+    }
+    if (bucket->left < count) {
+        return 0;
+    }
+    bucket->left -= count;
+    return 1;
 }
 
 enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, const char *channel,
@@ -338,7 +341,7 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
     if (!assembler || !channel || !data) {
         return RHO_ERROR_NULL;
     }
-    if (assembler->magic != MAGIC) {
+    if (assembler->magic != SCAN_MAGIC) {
         return RHO_ERROR_STATE;
     }
     if (!parse_channel(channel, &kind, &sensor_id)) {
@@ -363,15 +366,14 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
                                             rho_scan_eldest_known_us(assembler, now_us));
     struct rho_scan_assembler_bucket *bucket =
         source && !is_new ? &source->messages : &assembler->strangers;
-    if (!rho_scan_take_tokens(bucket, 1, config->flood_per_s, now_us)) {
+    if (!take_tokens(bucket, 1, config->flood_per_s, now_us)) {
         rho_scan_increment(&counters->messages_flooded);
         return RHO_OK;
     }
     union scan_message message;
     struct scan_heading heading;
-    enum rho_status status = rho_scan_decode(kind, data, size, &message, &heading);
-    if (status != RHO_OK || heading.sensor_id != sensor_id ||
-        !rho_scan_subtract_time_bias(assembler, &heading)) {
+    enum rho_status status = rho_scan_decode(assembler, kind, data, size, &message, &heading);
+    if (status != RHO_OK || heading.sensor_id != sensor_id) {
         rho_scan_increment(status == RHO_ERROR_TYPE ? &counters->messages_wrong_type
                                                     : &counters->messages_bad);
         return RHO_OK;
@@ -381,8 +383,8 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
         return RHO_OK;
     }
     heading.is_new = (uint8_t)(is_new && !is_named_in_config(assembler, &heading, now_us));
-    if (heading.is_new && !rho_scan_take_tokens(&assembler->stranger_plots, heading.num_inputs,
-                                                config->stranger_plots_per_s, now_us)) {
+    if (heading.is_new && !take_tokens(&assembler->stranger_plots, heading.num_inputs,
+                                       config->stranger_plots_per_s, now_us)) {
         rho_scan_increment(&counters->messages_flooded);
         return RHO_OK;
     }
@@ -397,53 +399,4 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
         assembler->stranger_plots.left += heading.is_new ? heading.num_inputs : 0u;
     }
     return status;
-}
-
-/* Scans that are due */
-
-int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
-                            struct rho_scan_assembler_item *item)
-{
-    if (!assembler || !item || assembler->magic != MAGIC) {
-        return 0;
-    }
-    struct rho_scan_assembler_slot *slot = rho_slot_in_state(assembler, SLOT_GIVEN);
-    if (slot) {
-        slot->state = SLOT_FREE;
-    }
-    if (rho_slot_in_state(assembler, SLOT_FREE)) {
-        assembler->is_pressed = 0; /* there is room: no scan has to go out early */
-    }
-    slot = rho_slot_find_due(assembler, now_us);
-    if (!slot) {
-        return 0;
-    }
-    slot->state = SLOT_GIVEN;
-    assembler->out_us =
-        assembler->out_us > slot->place.time_us ? assembler->out_us : slot->place.time_us;
-    rho_slot_fill_item(slot, item);
-    item->is_restart = assembler->is_restart;
-    assembler->is_restart = 0;
-    return 1;
-}
-
-int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler)
-{
-    int64_t due_us = INT64_MAX;
-    if (!assembler || assembler->magic != MAGIC) {
-        return due_us;
-    }
-    const int64_t hold_us = assembler->config.hold_us;
-    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        const struct rho_scan_assembler_slot *slot = &assembler->slots[i];
-        if ((slot->state == SLOT_COMPLETE || (slot->state == SLOT_OPEN && hold_us > 0)) &&
-            slot->heard_us <= INT64_MAX - hold_us) {
-            const int64_t early_us =
-                slot->state == SLOT_COMPLETE ? rho_scan_held_until_us(assembler, slot) : INT64_MIN;
-            int64_t held_us = slot->heard_us + hold_us;
-            held_us = early_us > held_us ? early_us : held_us;
-            due_us = held_us < due_us ? held_us : due_us;
-        }
-    }
-    return due_us;
 }

@@ -46,7 +46,19 @@ static struct scan_heading heading_of_polar_plots(const struct rho_message_polar
     };
 }
 
-enum rho_status rho_scan_decode(enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
+const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_assembler *assembler,
+                                                        int32_t sensor_id)
+{
+    for (unsigned i = 0; i < assembler->num_known; i++) {
+        if (assembler->known[i].sensor.sensor_id == sensor_id) {
+            return &assembler->known[i];
+        }
+    }
+    return &assembler->config.other;
+}
+
+enum rho_status rho_scan_decode(const struct rho_scan_assembler *assembler,
+                                enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
                                 union scan_message *message, struct scan_heading *heading)
 {
     enum rho_status status;
@@ -78,7 +90,15 @@ enum rho_status rho_scan_decode(enum rho_scan_assembler_kind kind, const uint8_t
             *heading = heading_of_polar_plots(&message->polar);
         }
     }
-    return status;
+    if (status != RHO_OK) {
+        return status;
+    }
+    /* cannot overflow: a valid time is within RHO_LIMIT_TIME_US */
+    int64_t *time_us = &heading->place.time_us;
+    *time_us -=
+        rho_measurement_time_bias_us(&rho_scan_sensor(assembler, heading->sensor_id)->sensor);
+    return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US ? RHO_OK
+                                                                           : RHO_ERROR_VALUE;
 }
 
 /* Plots and bearings */
@@ -146,27 +166,6 @@ static void convert_polar_plots(struct rho_plot *to, unsigned count,
     }
 }
 
-const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_assembler *assembler,
-                                                        int32_t sensor_id)
-{
-    for (unsigned i = 0; i < assembler->num_known; i++) {
-        if (assembler->known[i].sensor.sensor_id == sensor_id) {
-            return &assembler->known[i];
-        }
-    }
-    return &assembler->config.other;
-}
-
-/* The subtraction cannot overflow: a valid time is within RHO_LIMIT_TIME_US. */
-int rho_scan_subtract_time_bias(const struct rho_scan_assembler *assembler,
-                                struct scan_heading *heading)
-{
-    int64_t *time_us = &heading->place.time_us;
-    *time_us -=
-        rho_measurement_time_bias_us(&rho_scan_sensor(assembler, heading->sensor_id)->sensor);
-    return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
-}
-
 void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
                                struct rho_scan_assembler_slot *slot,
                                const struct scan_heading *heading,
@@ -175,21 +174,16 @@ void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
     const struct rho_scan_assembler_sensor *known = rho_scan_sensor(assembler, heading->sensor_id);
     const int is_bearings = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS);
     const unsigned room = is_bearings ? RHO_MAX_BEARINGS : RHO_MAX_PLOTS;
-    unsigned at = 0, count = heading->num_inputs, dropped = 0;
+    const unsigned all = slot->num_inputs + (unsigned)heading->num_inputs;
+    unsigned at = 0, count = heading->num_inputs;
     for (unsigned i = 0; i < heading->part; i++) {
         at += slot->parts[i] > 0 ? slot->parts[i] - 1u : 0u;
     }
     at = at < slot->num_inputs ? at : slot->num_inputs;
     unsigned behind = slot->num_inputs - at;
     /* A full slot keeps the first rows of the scan: a part in between displaces the last ones. */
-    if (at + count > room) {
-        dropped += at + count - room;
-        count = room - at;
-    }
-    if (at + count + behind > room) {
-        dropped += at + count + behind - room;
-        behind = room - at - count;
-    }
+    count = count < room - at ? count : room - at;
+    behind = behind < room - at - count ? behind : room - at - count;
     if (is_bearings) {
         const struct rho_message_bearing_scan *scan = &message->bearings;
         const float bias_rad = known->sensor.azimuth_bias_rad;
@@ -216,5 +210,6 @@ void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
     slot->num_inputs = (uint16_t)(at + count + behind);
     slot->parts[heading->part] = (uint16_t)(heading->num_inputs + 1u);
     slot->parts_here++;
-    assembler->counters.plots_no_room = rho_count(assembler->counters.plots_no_room, dropped);
+    assembler->counters.plots_no_room =
+        rho_count(assembler->counters.plots_no_room, all - slot->num_inputs);
 }

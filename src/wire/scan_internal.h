@@ -12,6 +12,8 @@
 #include "rhotrack/message.h"
 #include "rhotrack/scan_assembler.h"
 
+enum { SCAN_MAGIC = 0x66656564 /* of an initialised assembler */ };
+
 /* A decoded message: the member of its kind. */
 union scan_message {
     struct rho_message_plot_scan plots;
@@ -135,10 +137,6 @@ enum scan_clock rho_scan_update_clock(struct rho_scan_assembler *assembler,
                                       struct rho_scan_assembler_source *source, int64_t time_us,
                                       enum scan_verdict verdict, int64_t now_us);
 
-/* Takes count tokens out of a rate limit's bucket; 0: it holds fewer, and is unchanged. */
-int rho_scan_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count, uint32_t per_s,
-                         int64_t now_us);
-
 /* scan_slots.c: slots of scans */
 
 enum slot_state {
@@ -179,10 +177,11 @@ int rho_slot_has_out_of_sequence(const struct rho_scan_assembler *assembler,
 struct rho_scan_assembler_slot *rho_slot_find_spare(struct rho_scan_assembler *assembler,
                                                     int64_t now_us);
 
-/* Begins a scan in a free slot, without any of its parts. */
-void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembler_slot *slot,
-                   const struct rho_scan_assembler_source *source,
-                   const struct scan_heading *heading, enum slot_order order);
+/* Begins an accepted scan in a free slot, which there is, without any of its parts. */
+struct rho_scan_assembler_slot *rho_slot_open(struct rho_scan_assembler *assembler,
+                                              const struct rho_scan_assembler_source *source,
+                                              const struct scan_heading *heading,
+                                              enum slot_order order);
 
 /* Ends the wait for parts of a sensor's open scans; numbers_restart: its numbers begin anew. */
 void rho_slot_complete_all(struct rho_scan_assembler *assembler,
@@ -209,26 +208,15 @@ void rho_slot_add_part(struct rho_scan_assembler *assembler, struct rho_scan_ass
                        const struct scan_heading *heading, const union scan_message *message,
                        int64_t now_us);
 
-/* Completes overdue scans and drops late ones; returns the scan to go out now, or NULL. */
-struct rho_scan_assembler_slot *rho_slot_find_due(struct rho_scan_assembler *assembler,
-                                                  int64_t now_us);
-
-/* Describes a slot's scan to the caller; the item points into the slot. */
-void rho_slot_fill_item(const struct rho_scan_assembler_slot *slot,
-                        struct rho_scan_assembler_item *item);
-
 /* scan_decoding.c: decoding of messages */
 
-/* Decodes and validates a message, and fills its heading. */
-enum rho_status rho_scan_decode(enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
-                                union scan_message *message, struct scan_heading *heading);
-
 /*
- * Subtracts the sensor's time bias from the scan's time, which is then on the common clock. Returns
- * 0 where it is beyond RHO_LIMIT_TIME_US.
+ * Decodes and validates a message, and fills its heading, whose time is without the sensor's time
+ * bias. Errors: those of the message's functions, VALUE (the time is beyond RHO_LIMIT_TIME_US).
  */
-int rho_scan_subtract_time_bias(const struct rho_scan_assembler *assembler,
-                                struct scan_heading *heading);
+enum rho_status rho_scan_decode(const struct rho_scan_assembler *assembler,
+                                enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
+                                union scan_message *message, struct scan_heading *heading);
 
 /* Inserts a part's plots or bearings in the order of parts; counts those beyond the slot's room. */
 void rho_slot_add_measurements(struct rho_scan_assembler *assembler,

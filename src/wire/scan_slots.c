@@ -133,10 +133,12 @@ static int is_at_origin(const struct scan_heading *heading)
            rho_is_equal(heading->z_m, 0.0f);
 }
 
-void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembler_slot *slot,
-                   const struct rho_scan_assembler_source *source,
-                   const struct scan_heading *heading, enum slot_order order)
+struct rho_scan_assembler_slot *rho_slot_open(struct rho_scan_assembler *assembler,
+                                              const struct rho_scan_assembler_source *source,
+                                              const struct scan_heading *heading,
+                                              enum slot_order order)
 {
+    struct rho_scan_assembler_slot *slot = rho_slot_in_state(assembler, SLOT_FREE);
     const struct rho_scan_assembler_sensor *known = rho_scan_sensor(assembler, heading->sensor_id);
     const int is_bearings = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS);
     const int has_place = !is_at_origin(heading);
@@ -161,6 +163,8 @@ void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembl
     slot->has_sensor = (uint8_t)(known != &assembler->config.other ||
                                  assembler->config.gives_other || (has_place && !is_bearings));
     slot->state = SLOT_OPEN;
+    rho_scan_increment(&assembler->counters.scans_accepted);
+    return slot;
 }
 
 /* Parts */
@@ -304,8 +308,9 @@ struct rho_scan_assembler_slot *rho_slot_find_spare(struct rho_scan_assembler *a
     return spare ? spare : weak;
 }
 
-struct rho_scan_assembler_slot *rho_slot_find_due(struct rho_scan_assembler *assembler,
-                                                  int64_t now_us)
+/* Completes overdue scans and drops late ones; returns the scan to go out now, or NULL. */
+static struct rho_scan_assembler_slot *find_due(struct rho_scan_assembler *assembler,
+                                                int64_t now_us)
 {
     const int has_hold = assembler->config.hold_us > 0;
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
@@ -359,8 +364,8 @@ struct rho_scan_assembler_slot *rho_slot_find_due(struct rho_scan_assembler *ass
     return slot;
 }
 
-void rho_slot_fill_item(const struct rho_scan_assembler_slot *slot,
-                        struct rho_scan_assembler_item *item)
+static void fill_item(const struct rho_scan_assembler_slot *slot,
+                      struct rho_scan_assembler_item *item)
 {
     *item = (struct rho_scan_assembler_item){
         .kind = (enum rho_scan_assembler_kind)slot->kind,
@@ -385,4 +390,51 @@ void rho_slot_fill_item(const struct rho_scan_assembler_slot *slot,
                                        .num_plots = slot->num_inputs,
                                        .plots = slot->plots};
     }
+}
+
+int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
+                            struct rho_scan_assembler_item *item)
+{
+    if (!assembler || !item || assembler->magic != SCAN_MAGIC) {
+        return 0;
+    }
+    struct rho_scan_assembler_slot *slot = rho_slot_in_state(assembler, SLOT_GIVEN);
+    if (slot) {
+        slot->state = SLOT_FREE;
+    }
+    if (rho_slot_in_state(assembler, SLOT_FREE)) {
+        assembler->is_pressed = 0; /* there is room: no scan has to go out early */
+    }
+    slot = find_due(assembler, now_us);
+    if (!slot) {
+        return 0;
+    }
+    slot->state = SLOT_GIVEN;
+    assembler->out_us =
+        assembler->out_us > slot->place.time_us ? assembler->out_us : slot->place.time_us;
+    fill_item(slot, item);
+    item->is_restart = assembler->is_restart;
+    assembler->is_restart = 0;
+    return 1;
+}
+
+int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler)
+{
+    int64_t due_us = INT64_MAX;
+    if (!assembler || assembler->magic != SCAN_MAGIC) {
+        return due_us;
+    }
+    const int64_t hold_us = assembler->config.hold_us;
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        const struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+        if ((slot->state == SLOT_COMPLETE || (slot->state == SLOT_OPEN && hold_us > 0)) &&
+            slot->heard_us <= INT64_MAX - hold_us) {
+            const int64_t early_us =
+                slot->state == SLOT_COMPLETE ? rho_scan_held_until_us(assembler, slot) : INT64_MIN;
+            int64_t held_us = slot->heard_us + hold_us;
+            held_us = early_us > held_us ? early_us : held_us;
+            due_us = held_us < due_us ? held_us : due_us;
+        }
+    }
+    return due_us;
 }

@@ -3,8 +3,6 @@
  * show_accumulators: messages of the accumulators of the last search. A search of plots has one; a
  * search of bearings has one for all pairs of sensors together, and one for each of several pairs.
  */
-#include <string.h>
-
 #include "message_clamps.h"
 #include "rhotrack/detail/approx.h"
 #include "show_writers.h"
@@ -14,11 +12,14 @@
 
 /* An accumulator to be shown. */
 struct shown_accumulator {
+    int64_t newest_us; /* time of its newest scan */
     const struct rho_show_source *source;
-    int is_of_bearings, has_pair;
+    uint32_t votes_per_unit; /* integer units of the accumulator's cells that make one vote */
+    uint16_t height, width;  /* of its picture */
     struct rho_passive_paper_pair pair;
     int16_t sensor_a_id, sensor_b_id; /* of the pair; 0: no pair */
-    uint32_t votes_per_unit; /* integer units of the accumulator's cells that make one vote */
+    int8_t method, has_pair;          /* as in the messages */
+    uint8_t is_of_bearings;
 };
 
 static const struct rho_paper_starts *searched_paper_starts(const struct rho_show_source *source)
@@ -42,53 +43,54 @@ static unsigned num_bearing_accumulators(const struct rho_show_source *source)
     return pairs > 1 ? pairs + 1u : pairs;
 }
 
-static unsigned limit_to_picture_side(unsigned cells)
+static uint16_t limit_to_picture_side(uint16_t cells)
 {
     return cells < RHO_SHOW_SIDE ? cells : RHO_SHOW_SIDE;
-}
-
-static unsigned picture_height(const struct shown_accumulator *accumulator)
-{
-    struct rho_passive_paper_space space = {.theta_cells = 1};
-    if (!accumulator->is_of_bearings) {
-        return limit_to_picture_side(accumulator->source->starts->hough.theta_cells);
-    }
-    (void)!rho_passive_paper_space(accumulator->source->paper, &space); /* searched: no error */
-    return limit_to_picture_side(space.theta_cells);
-}
-
-static unsigned picture_width(const struct shown_accumulator *accumulator)
-{
-    return limit_to_picture_side(accumulator->is_of_bearings
-                                     ? RHO_PAPER_RHO_CELLS
-                                     : accumulator->source->starts->hough.rho_cells);
 }
 
 /* Number of messages: one accumulator_t, and with a picture the parts of its plane_t. */
 static unsigned messages_of_accumulator(const struct rho_show *show,
                                         const struct shown_accumulator *accumulator)
 {
-    return 1u +
-           (show->config.picture ? (picture_height(accumulator) + PART_ROWS - 1u) / PART_ROWS : 0u);
+    return 1u + (show->config.picture ? rho_num_parts(accumulator->height, PART_ROWS) : 0u);
 }
 
-static struct shown_accumulator select_accumulator(const struct rho_show_source *source,
-                                                   unsigned number)
+static void select_accumulator(const struct rho_show_source *source, unsigned number,
+                               struct shown_accumulator *accumulator)
 {
-    struct shown_accumulator accumulator = {.source = source,
-                                            .is_of_bearings = !searched_paper_starts(source),
-                                            .votes_per_unit = RHO_HOUGH_VOTE};
-    if (accumulator.is_of_bearings) {
-        accumulator.votes_per_unit = 1;
-        accumulator.has_pair =
-            number > 0 && rho_passive_paper_pair(source->paper, number - 1u, &accumulator.pair);
+    static const int8_t methods[] = {[RHO_HOUGH_HT] = RHO_MESSAGE_ACCUMULATOR_HT,
+                                     [RHO_HOUGH_MHT] = RHO_MESSAGE_ACCUMULATOR_MHT,
+                                     [RHO_HOUGH_IHT] = RHO_MESSAGE_ACCUMULATOR_IHT,
+                                     [RHO_HOUGH_NHT_A] = RHO_MESSAGE_ACCUMULATOR_NHT,
+                                     [RHO_HOUGH_NHT_C] = RHO_MESSAGE_ACCUMULATOR_NHT};
+    *accumulator = (struct shown_accumulator){.source = source};
+    if (searched_paper_starts(source)) {
+        const struct rho_hough *hough = &source->starts->hough;
+        struct rho_window *window = &source->starts->window;
+        accumulator->newest_us = rho_window_scan_at(window, window->num_scans - 1u)->time_us;
+        accumulator->method = methods[hough->config.method];
+        accumulator->height = limit_to_picture_side(hough->theta_cells);
+        accumulator->width = limit_to_picture_side(hough->rho_cells);
+        accumulator->votes_per_unit = RHO_HOUGH_VOTE;
+        return;
     }
-    if (accumulator.has_pair) {
-        const struct rho_batch_sensor *sensors = source->paper->batch.sensors;
-        accumulator.sensor_a_id = rho_clamp_sensor_id(sensors[accumulator.pair.a].sensor_id);
-        accumulator.sensor_b_id = rho_clamp_sensor_id(sensors[accumulator.pair.b].sensor_id);
+    const struct rho_batch *batch = &source->paper->batch;
+    struct rho_passive_paper_space space = {.theta_cells = 1, .rho_cells = RHO_PAPER_RHO_CELLS};
+    (void)!rho_passive_paper_space(source->paper, &space); /* searched: no error */
+    accumulator->newest_us = batch->time_us[batch->num_scans - 1u];
+    accumulator->is_of_bearings = 1;
+    accumulator->method = RHO_MESSAGE_ACCUMULATOR_PASSIVE_PAPER;
+    accumulator->height = limit_to_picture_side(space.theta_cells);
+    accumulator->width = limit_to_picture_side(space.rho_cells);
+    accumulator->votes_per_unit = 1;
+    accumulator->has_pair =
+        number > 0 && rho_passive_paper_pair(source->paper, number - 1u, &accumulator->pair);
+    if (accumulator->has_pair) {
+        accumulator->sensor_a_id =
+            rho_clamp_sensor_id(batch->sensors[accumulator->pair.a].sensor_id);
+        accumulator->sensor_b_id =
+            rho_clamp_sensor_id(batch->sensors[accumulator->pair.b].sensor_id);
     }
-    return accumulator;
 }
 
 uint32_t rho_show_count_accumulators(const struct rho_show *show,
@@ -98,16 +100,16 @@ uint32_t rho_show_count_accumulators(const struct rho_show *show,
     if (planes == 0) {
         return 0;
     }
-    const struct shown_accumulator first = select_accumulator(source, 0);
+    struct shown_accumulator first;
+    select_accumulator(source, 0, &first);
     return planes * messages_of_accumulator(show, &first);
 }
 
 static void make_picture(struct rho_show *show, const struct shown_accumulator *accumulator)
 {
     const struct rho_show_source *source = accumulator->source;
-    struct rho_votes_picture picture = {.height = (uint16_t)picture_height(accumulator),
-                                        .width = (uint16_t)picture_width(accumulator),
-                                        .votes = show->config.picture};
+    struct rho_votes_picture picture = {
+        .height = accumulator->height, .width = accumulator->width, .votes = show->config.picture};
     enum rho_status status = RHO_ERROR_STATE;
     show->votes_max = 0;
     if (show->config.picture && accumulator->is_of_bearings) {
@@ -124,45 +126,15 @@ static void make_picture(struct rho_show *show, const struct shown_accumulator *
 
 /* accumulator_t */
 
-static int64_t newest_scan_us(const struct shown_accumulator *accumulator)
-{
-    const struct rho_show_source *source = accumulator->source;
-    if (accumulator->is_of_bearings) {
-        return source->paper->batch.time_us[source->paper->batch.num_scans - 1u];
-    }
-    struct rho_window *window = &source->starts->window;
-    return rho_window_scan_at(window, window->num_scans - 1u)->time_us;
-}
-
 /* Votes of a number of integer units of the accumulator's cells. */
 static float votes_from_units(const struct shown_accumulator *accumulator, uint32_t units)
 {
     return (float)units / (float)accumulator->votes_per_unit;
 }
 
-static int8_t message_method_of(const struct shown_accumulator *accumulator)
-{
-    if (accumulator->is_of_bearings) {
-        return RHO_MESSAGE_ACCUMULATOR_PASSIVE_PAPER;
-    }
-    switch (accumulator->source->starts->hough.config.method) {
-    case RHO_HOUGH_HT:
-        return RHO_MESSAGE_ACCUMULATOR_HT;
-    case RHO_HOUGH_MHT:
-        return RHO_MESSAGE_ACCUMULATOR_MHT;
-    case RHO_HOUGH_IHT:
-        return RHO_MESSAGE_ACCUMULATOR_IHT;
-    case RHO_HOUGH_NHT_A:
-    case RHO_HOUGH_NHT_C:
-    default:
-        return RHO_MESSAGE_ACCUMULATOR_NHT;
-    }
-}
-
 static enum rho_status write_plots(const struct shown_accumulator *accumulator,
                                    struct rho_message_accumulator_head *head,
-                                   const struct rho_show_output *output,
-                                   struct rho_message_writer *writer)
+                                   struct rho_show_output *output)
 {
     struct rho_paper_starts *starts = accumulator->source->starts;
     const struct rho_hough_config *config = &starts->hough.config;
@@ -177,7 +149,7 @@ static enum rho_status write_plots(const struct shown_accumulator *accumulator,
     head->votes_min = share > config->votes_min ? share : config->votes_min;
     head->num_cells_total = rho_clamp_to_int16(starts->result.num_peaks);
     enum rho_status status =
-        rho_message_accumulator_begin(writer, output->buffer, output->capacity, head);
+        rho_message_accumulator_begin(&output->writer, output->buffer, output->capacity, head);
     for (uint32_t i = 0; i < starts->result.num_peaks && status == RHO_OK; i++) {
         const struct rho_hough_track *line = &starts->lines[i].line;
         const struct rho_message_accumulator_cell cell = {
@@ -187,7 +159,7 @@ static enum rho_status write_plots(const struct shown_accumulator *accumulator,
             .scan_mask = line->mask,
             .plots = rho_clamp_to_int16(line->num_plots),
             .track_id = (int32_t)(starts->lines[i].track_id & INT32_MAX)};
-        status = rho_message_accumulator_add(writer, &cell);
+        status = rho_message_accumulator_add(&output->writer, &cell);
     }
     return status;
 }
@@ -196,8 +168,7 @@ static enum rho_status write_plots(const struct shown_accumulator *accumulator,
 static enum rho_status write_bearings(const struct rho_show *show,
                                       const struct shown_accumulator *accumulator,
                                       struct rho_message_accumulator_head *head,
-                                      const struct rho_show_output *output,
-                                      struct rho_message_writer *writer)
+                                      struct rho_show_output *output)
 {
     struct rho_passive_paper *paper = accumulator->source->paper;
     struct rho_accumulator_peak peaks[CELLS_MAX];
@@ -224,7 +195,7 @@ static enum rho_status write_bearings(const struct rho_show *show,
     head->votes_min = (float)paper->votes_min;
     head->num_cells_total =
         rho_clamp_to_int16(accumulator->has_pair ? num_peaks : paper->num_lines);
-    status = rho_message_accumulator_begin(writer, output->buffer, output->capacity, head);
+    status = rho_message_accumulator_begin(&output->writer, output->buffer, output->capacity, head);
     for (uint32_t i = 0; i < num_peaks && status == RHO_OK; i++) {
         const float theta_rad = RHO_PI / (float)space.theta_cells;
         const struct rho_message_accumulator_cell cell = {
@@ -232,7 +203,7 @@ static enum rho_status write_bearings(const struct rho_show *show,
             .theta_rad = ((float)peaks[i].theta_cell + 0.5f) * theta_rad,
             .votes = (float)peaks[i].votes,
             .scan_mask = (int32_t)peaks[i].mask};
-        status = rho_message_accumulator_add(writer, &cell);
+        status = rho_message_accumulator_add(&output->writer, &cell);
     }
     /* the found lines, with rho from the accumulator's origin, not that of the local frame */
     for (unsigned i = 0; !accumulator->has_pair && i < paper->num_lines && status == RHO_OK; i++) {
@@ -245,53 +216,49 @@ static enum rho_status write_bearings(const struct rho_show *show,
             .scan_mask = line->scans,
             .plots = rho_clamp_to_int16(line->crossings),
             .track_id = (int32_t)(line->track_id & INT32_MAX)};
-        status = rho_message_accumulator_add(writer, &cell);
+        status = rho_message_accumulator_add(&output->writer, &cell);
     }
     return status;
 }
 
-static const char *write_accumulator(const struct rho_show *show,
-                                     const struct shown_accumulator *accumulator,
-                                     const struct rho_show_output *output)
+static enum rho_status write_accumulator(const struct rho_show *show,
+                                         const struct shown_accumulator *accumulator,
+                                         struct rho_show_output *output)
 {
-    struct rho_message_writer writer;
-    struct rho_message_accumulator_head head = {.utime = newest_scan_us(accumulator),
+    struct rho_message_accumulator_head head = {.utime = accumulator->newest_us,
                                                 .scan = accumulator->source->step,
                                                 .epoch = accumulator->source->epoch,
-                                                .method = message_method_of(accumulator),
-                                                .has_pair = (int8_t)accumulator->has_pair,
+                                                .method = accumulator->method,
+                                                .has_pair = accumulator->has_pair,
                                                 .sensor_a_id = accumulator->sensor_a_id,
                                                 .sensor_b_id = accumulator->sensor_b_id,
                                                 .not_sent = output->not_sent};
-    const enum rho_status status = accumulator->is_of_bearings
-                                       ? write_bearings(show, accumulator, &head, output, &writer)
-                                       : write_plots(accumulator, &head, output, &writer);
-    return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK
-               ? RHO_MESSAGE_ACCUMULATOR_CHANNEL
-               : NULL;
+    output->channel = RHO_MESSAGE_ACCUMULATOR_CHANNEL;
+    return accumulator->is_of_bearings ? write_bearings(show, accumulator, &head, output)
+                                       : write_plots(accumulator, &head, output);
 }
 
 /* plane_t */
 
-static const char *write_picture_rows(const struct rho_show *show,
-                                      const struct shown_accumulator *accumulator, unsigned part,
-                                      const struct rho_show_output *output)
+static enum rho_status write_picture_rows(const struct rho_show *show,
+                                          const struct shown_accumulator *accumulator,
+                                          unsigned part, struct rho_show_output *output)
 {
-    const unsigned height = picture_height(accumulator), width = picture_width(accumulator);
-    struct rho_message_writer writer;
+    const unsigned height = accumulator->height, width = accumulator->width;
     const struct rho_message_plane_head head = {
-        .utime = newest_scan_us(accumulator),
+        .utime = accumulator->newest_us,
         .scan = accumulator->source->step,
         .epoch = accumulator->source->epoch,
-        .method = message_method_of(accumulator),
-        .has_pair = (int8_t)accumulator->has_pair,
+        .method = accumulator->method,
+        .has_pair = accumulator->has_pair,
         .sensor_a_id = accumulator->sensor_a_id,
         .sensor_b_id = accumulator->sensor_b_id,
         .votes_max = votes_from_units(accumulator, show->votes_max),
         .part = (int16_t)part,
-        .num_parts = (int16_t)((height + PART_ROWS - 1u) / PART_ROWS)};
+        .num_parts = (int16_t)rho_num_parts(height, PART_ROWS)};
+    output->channel = RHO_MESSAGE_PLANE_CHANNEL;
     enum rho_status status =
-        rho_message_plane_begin(&writer, output->buffer, output->capacity, &head);
+        rho_message_plane_begin(&output->writer, output->buffer, output->capacity, &head);
     for (unsigned y = part * PART_ROWS;
          y < height && y < (part + 1u) * PART_ROWS && status == RHO_OK; y++) {
         struct rho_message_plane_row row;
@@ -303,19 +270,19 @@ static const char *write_picture_rows(const struct rho_show *show,
                              ? (votes * INT8_MAX + show->votes_max - 1u) / show->votes_max
                              : 0);
         }
-        status = rho_message_plane_add(&writer, &row);
+        status = rho_message_plane_add(&output->writer, &row);
     }
-    return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK
-               ? RHO_MESSAGE_PLANE_CHANNEL
-               : NULL;
+    return status;
 }
 
-const char *rho_show_write_accumulator(struct rho_show *show, const struct rho_show_source *source,
-                                       uint32_t number, const struct rho_show_output *output)
+enum rho_status rho_show_write_accumulator(struct rho_show *show,
+                                           const struct rho_show_source *source, uint32_t number,
+                                           struct rho_show_output *output)
 {
-    const struct shown_accumulator first = select_accumulator(source, 0);
-    const unsigned messages = messages_of_accumulator(show, &first);
-    const struct shown_accumulator accumulator = select_accumulator(source, number / messages);
+    struct shown_accumulator accumulator;
+    select_accumulator(source, 0, &accumulator);
+    const unsigned messages = messages_of_accumulator(show, &accumulator);
+    select_accumulator(source, number / messages, &accumulator);
     if (number % messages > 0) {
         return write_picture_rows(show, &accumulator, number % messages - 1u, output);
     }

@@ -84,19 +84,18 @@ static struct rho_message_ghost ghost_of_element(const struct rho_passive_paper 
     return ghost;
 }
 
-const char *rho_show_write_ghosts(const struct rho_show_source *source, uint32_t number,
-                                  const struct rho_show_output *output)
+enum rho_status rho_show_write_ghosts(const struct rho_show_source *source, uint32_t number,
+                                      struct rho_show_output *output)
 {
     const struct rho_passive_paper *paper = source->paper;
     struct rho_passive_paper_pair pair;
     struct rho_ghost_matrix matrix;
     struct rho_crossing_base base;
-    struct rho_message_writer writer;
     uint32_t before;
     unsigned part;
     if (!find_part(source, number, &pair, &part, &before) ||
         rho_passive_paper_ghosts(paper, &pair, paper->batch.num_scans - 1u, &matrix) != RHO_OK) {
-        return NULL;
+        return RHO_ERROR_STATE;
     }
     const struct rho_batch_sensor *a = &paper->batch.sensors[pair.a];
     const struct rho_batch_sensor *b = &paper->batch.sensors[pair.b];
@@ -119,15 +118,15 @@ const char *rho_show_write_ghosts(const struct rho_show_source *source, uint32_t
         .num_parts = (int16_t)num_matrix_parts(&paper->batch, &pair)};
     const unsigned all = (unsigned)matrix.rows * matrix.columns;
     enum rho_status status = rho_crossing_set_base(&base, a->x_m, a->y_m, b->x_m, b->y_m);
+    output->channel = RHO_MESSAGE_GHOST_MATRIX_CHANNEL;
     if (status == RHO_OK) {
-        status = rho_message_ghost_matrix_begin(&writer, output->buffer, output->capacity, &head);
+        status = rho_message_ghost_matrix_begin(&output->writer, output->buffer, output->capacity,
+                                                &head);
     }
     for (unsigned i = part * PART_ELEMENTS;
          i < all && i < (part + 1u) * PART_ELEMENTS && status == RHO_OK; i++) {
         const struct rho_message_ghost ghost = ghost_of_element(paper, &pair, &base, &matrix, i);
-        status = rho_message_ghost_matrix_add(&writer, &ghost);
+        status = rho_message_ghost_matrix_add(&output->writer, &ghost);
     }
-    return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK
-               ? RHO_MESSAGE_GHOST_MATRIX_CHANNEL
-               : NULL;
+    return status;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* show_hypotheses: a message of one track's hypotheses, model probabilities and evidence. */
+#include "rhotrack/detail/approx.h"
 #include "show_writers.h"
 
 enum {
@@ -45,53 +46,40 @@ static enum rho_status add_hypotheses(const struct rho_hypotheses *pool,
     return status;
 }
 
-static float clamp_to_one(float share)
-{
-    return share < 1.0f ? share : 1.0f;
-}
-
-static void set_evidence(struct rho_message_hypotheses_head *head, int8_t kind, float support,
-                         float shared, float clutter)
-{
-    head->evidence = kind;
-    head->support = clamp_to_one(support);
-    head->shared = clamp_to_one(shared);
-    head->clutter = clamp_to_one(clutter);
-}
-
 /* Sets the evidence of the track, or of the line that started it in this step, where known. */
 static void find_evidence(const struct rho_show_source *source, unsigned track,
                           struct rho_message_hypotheses_head *head)
 {
     const struct rho_paper_starts *starts = source->starts;
+    struct rho_tracker_evidence found = {0.0f, 0.0f, 0.0f};
+    if (rho_tracker_evidence_of(source->tracker, track, &found)) {
+        head->evidence = RHO_MESSAGE_HYPOTHESES_PLOTS;
+    }
     for (uint32_t i = 0; starts && starts->has_searched && i < starts->result.num_peaks; i++) {
         const struct rho_hough_memberships *sums = &starts->lines[i].line.sums;
         const float truth = (float)sums->truth, falsity = (float)sums->falsity;
         const float indeterminacy = (float)sums->indeterminacy;
         const float all = truth + indeterminacy + falsity;
         if (starts->lines[i].track_id == source->tracker->tracks[track].track_id && all > 0.0f) {
-            set_evidence(head, RHO_MESSAGE_HYPOTHESES_LINE, truth / all, indeterminacy / all,
-                         falsity / all);
-            return;
+            found = (struct rho_tracker_evidence){truth / all, indeterminacy / all, falsity / all};
+            head->evidence = RHO_MESSAGE_HYPOTHESES_LINE;
+            break;
         }
     }
-    struct rho_tracker_evidence evidence;
-    if (rho_tracker_evidence_of(source->tracker, track, &evidence)) {
-        set_evidence(head, RHO_MESSAGE_HYPOTHESES_PLOTS, evidence.support, evidence.shared,
-                     evidence.clutter);
-    }
+    head->support = rho_smaller(found.support, 1.0f);
+    head->shared = rho_smaller(found.shared, 1.0f);
+    head->clutter = rho_smaller(found.clutter, 1.0f);
 }
 
-const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsigned track,
-                                      const struct rho_show_output *output)
+enum rho_status rho_show_write_hypotheses(const struct rho_show_source *source, unsigned track,
+                                          struct rho_show_output *output)
 {
     if (track >= source->tracker->num_tracks) {
-        return NULL;
+        return RHO_ERROR_STATE;
     }
     const struct rho_track *at = &source->tracker->tracks[track];
     const struct rho_hypotheses *pool = &source->tracker->hypotheses;
     const int has_pool = RHO_TRACK_IS_BY(at, RHO_TRACK_HYPOTHESES);
-    struct rho_message_writer writer;
     struct rho_message_hypotheses_head head = {.utime = source->report->time_us,
                                                .scan = source->step,
                                                .epoch = source->epoch,
@@ -109,13 +97,13 @@ const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsi
             head.calm += share * (1.0f - hypothesis->imm.probability) * hypothesis->imm.calm;
         }
     }
-    head.steady = 1.0f - head.maneuver - head.calm;
-    head.steady = head.steady > 0.0f ? head.steady : 0.0f;
+    head.steady = rho_larger(1.0f - head.maneuver - head.calm, 0.0f);
     find_evidence(source, track, &head);
+    output->channel = RHO_MESSAGE_HYPOTHESES_CHANNEL;
     enum rho_status status =
-        rho_message_hypotheses_begin(&writer, output->buffer, output->capacity, &head);
+        rho_message_hypotheses_begin(&output->writer, output->buffer, output->capacity, &head);
     if (status == RHO_OK && has_pool) {
-        status = add_hypotheses(pool, at, &writer);
+        status = add_hypotheses(pool, at, &output->writer);
     } else if (status == RHO_OK) { /* the one hypothesis of a track with a single filter */
         const struct rho_message_hypothesis only = {
             .share = 1.0f,
@@ -125,9 +113,7 @@ const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsi
             .vy_mps = at->kalman.state[4],
             .maneuver_probability = at->maneuver_probability,
             .plots = {PLOT_UNKNOWN, PLOT_UNKNOWN, at->plot >= 0 ? at->plot : PLOT_NONE}};
-        status = rho_message_hypotheses_add(&writer, &only);
+        status = rho_message_hypotheses_add(&output->writer, &only);
     }
-    return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK
-               ? RHO_MESSAGE_HYPOTHESES_CHANNEL
-               : NULL;
+    return status;
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * show_rates: sends ghosts, votes and hypotheses of a step as messages, each kind within its rate.
- */
+/* show_rates: sends ghosts, votes and hypotheses of a step, each kind within its rate. */
 #include "rhotrack/publish.h"
 
 #include <string.h>
@@ -103,21 +101,20 @@ const char *rho_show_next(struct rho_show *show, const struct rho_show_source *s
     }
     struct rho_show_output output = {.capacity = capacity};
     output.buffer = buffer;
-    output.size = size;
     for (unsigned kind = 0; kind < RHO_NUM_SHOW_KINDS; kind++) {
         struct rho_show_rate *rate = &show->rates[kind];
         output.not_sent = rho_clamp_to_int32(rate->not_sent);
         while (rate->left > 0) {
             const uint32_t number = rate->at++;
             rate->left--;
-            const char *channel =
+            const enum rho_status status =
                 kind == RHO_SHOW_GHOSTS ? rho_show_write_ghosts(source, number, &output)
                 : kind == RHO_SHOW_VOTES
                     ? rho_show_write_accumulator(show, source, number, &output)
                     : rho_show_write_hypotheses(source, choose_next_track(show, source->report),
                                                 &output);
-            if (channel) {
-                return channel;
+            if (status == RHO_OK && rho_message_end(&output.writer, size) == RHO_OK) {
+                return output.channel;
             }
         }
     }

@@ -101,31 +101,26 @@ static int is_inside_polygon(const struct rho_zone *zone, float x_m, float y_m)
 
 /* Events */
 
-/* The values of a reported track that zones use. */
-struct zone_track {
-    uint32_t track_id;
-    float x_m, y_m, vx_mps, vy_mps, speed_mps;
-    int is_believed; /* 1: the track is confirmed, and may enter zones */
-};
-
-/*
- * 1 where a track moves along the zone's heading, -1 against it, 0 where it is slow or there is
- * none.
- */
-static int8_t direction_along_lane(const struct rho_zone *zone, const struct zone_track *track)
+/* Component along a zone's heading of a place or velocity. */
+static float along_heading(const struct rho_zone *zone, float x, float y)
 {
-    if (!zone->has_heading || !(track->speed_mps > zone->queue_mps)) {
+    return x * rho_cos(zone->heading_rad) + y * rho_sin(zone->heading_rad);
+}
+
+/* 1: a track moves along the zone's heading, -1: against it, 0: it is slow, or there is none. */
+static int8_t direction_along_lane(const struct rho_zone *zone,
+                                   const struct rho_track_report *track, float speed_mps)
+{
+    if (!zone->has_heading || !(speed_mps > zone->queue_mps)) {
         return 0;
     }
-    const float along_mps =
-        track->vx_mps * rho_cos(zone->heading_rad) + track->vy_mps * rho_sin(zone->heading_rad);
+    const float along_mps = along_heading(zone, track->state[RHO_VX], track->state[RHO_VY]);
     return (int8_t)(along_mps > 0.0f ? 1 : along_mps < 0.0f ? -1 : 0);
 }
 
 /* Adds an event of a track in a zone, and tells the time that it was there. */
 static float add_event(struct rho_zones *zones, const struct rho_zone_visitor *visitor,
-                       unsigned place, enum rho_zone_change change, int8_t direction,
-                       float speed_mps)
+                       unsigned place, enum rho_zone_change change, int8_t direction)
 {
     const float dwell_s = rho_seconds_between(visitor->since_us[place], zones->time_us);
     if (zones->num_events < RHO_ZONE_EVENTS) {
@@ -134,7 +129,7 @@ static float add_event(struct rho_zones *zones, const struct rho_zone_visitor *v
                                     .track_id = visitor->track_id,
                                     .change = (uint8_t)change,
                                     .direction = direction,
-                                    .speed_mps = speed_mps,
+                                    .speed_mps = visitor->speed_mps,
                                     .dwell_s = dwell_s};
     } else {
         zones->events_dropped = rho_count(zones->events_dropped, 1);
@@ -148,7 +143,7 @@ static void end_visits(struct rho_zones *zones, const struct rho_zone_visitor *v
     for (unsigned place = 0; place < zones->num_zones; place++) {
         if (visitor->inside >> place & 1u) {
             zones->counts[place].ended = rho_count(zones->counts[place].ended, 1);
-            (void)add_event(zones, visitor, place, RHO_ZONE_ENDS, 0, visitor->speed_mps);
+            (void)add_event(zones, visitor, place, RHO_ZONE_ENDS, 0);
         }
     }
 }
@@ -163,57 +158,58 @@ struct occupants {
 };
 
 static void update_zone(struct rho_zones *zones, struct rho_zone_visitor *visitor, unsigned place,
-                        const struct zone_track *track, struct occupants *occupants)
+                        const struct rho_track_report *track, struct occupants *occupants)
 {
+    const float x_m = track->state[RHO_X], y_m = track->state[RHO_Y];
+    const float speed_mps = visitor->speed_mps;
     const struct rho_zone *zone = &zones->zones[place];
     struct rho_zone_counts *counts = &zones->counts[place];
-    const int was_inside = (int)(visitor->inside >> place & 1u);
-    const int inside = is_inside_polygon(zone, track->x_m, track->y_m);
+    const uint32_t bit = (uint32_t)1 << place;
+    const int was_inside = (visitor->inside & bit) != 0;
+    const int inside = is_inside_polygon(zone, x_m, y_m);
     int leaves = was_inside && !inside; /* and is farther than the margin from each side */
     for (unsigned i = 0; i < zone->num_corners && leaves; i++) {
         const struct zone_side side = side_of_zone(zone, i);
         const float along_x_m = side.to_x_m - side.x_m, along_y_m = side.to_y_m - side.y_m;
-        const float off_x_m = track->x_m - side.x_m, off_y_m = track->y_m - side.y_m;
+        const float off_x_m = x_m - side.x_m, off_y_m = y_m - side.y_m;
         const float length2_m2 = along_x_m * along_x_m + along_y_m * along_y_m;
         float share = off_x_m * along_x_m + off_y_m * along_y_m;
         share = share <= 0.0f ? 0.0f : share >= length2_m2 ? 1.0f : share / length2_m2;
         const float left_x_m = off_x_m - share * along_x_m, left_y_m = off_y_m - share * along_y_m;
         leaves = !(left_x_m * left_x_m + left_y_m * left_y_m <= zone->margin_m * zone->margin_m);
     }
-    if (!was_inside && inside && track->is_believed) {
-        visitor->inside |= 1u << place;
+    if (!was_inside && inside && track->status == RHO_TRACK_CONFIRMED) {
+        visitor->inside |= bit;
         visitor->since_us[place] = zones->time_us;
         counts->entered = rho_count(counts->entered, 1);
-        (void)add_event(zones, visitor, place, RHO_ZONE_ENTERS, direction_along_lane(zone, track),
-                        track->speed_mps);
+        (void)add_event(zones, visitor, place, RHO_ZONE_ENTERS,
+                        direction_along_lane(zone, track, speed_mps));
     } else if (leaves) {
-        const int8_t direction = direction_along_lane(zone, track);
-        const float dwell_s =
-            add_event(zones, visitor, place, RHO_ZONE_LEAVES, direction, track->speed_mps);
-        visitor->inside &= ~(1u << place);
-        visitor->queued &= ~(1u << place);
+        const int8_t direction = direction_along_lane(zone, track, speed_mps);
+        const float dwell_s = add_event(zones, visitor, place, RHO_ZONE_LEAVES, direction);
+        visitor->inside &= ~bit;
+        visitor->queued &= ~bit;
         counts->left = rho_count(counts->left, 1);
         counts->along = rho_count(counts->along, direction > 0);
         counts->against = rho_count(counts->against, direction < 0);
         counts->dwell_mean_s += (dwell_s - counts->dwell_mean_s) / (float)counts->left;
-        counts->dwell_max_s = dwell_s > counts->dwell_max_s ? dwell_s : counts->dwell_max_s;
+        counts->dwell_max_s = rho_larger(dwell_s, counts->dwell_max_s);
     }
-    const uint32_t bit = (uint32_t)1 << place;
     if (!(visitor->inside & bit)) {
         return;
     }
     /* counts the track, and lets it join or leave the zone's queue by its speed */
     const float limit_mps = (visitor->queued & bit ? QUEUE_LEFT : 1.0f) * zone->queue_mps;
     occupants->inside++;
-    occupants->speed_sum_mps += track->speed_mps;
-    if (!(track->speed_mps < limit_mps)) {
+    occupants->speed_sum_mps += speed_mps;
+    if (!(speed_mps < limit_mps)) {
         visitor->queued &= ~bit;
         return;
     }
     visitor->queued |= bit;
-    float at_m[2] = {track->x_m, track->y_m};
+    float at_m[2] = {x_m, y_m};
     if (zone->has_heading) {
-        at_m[0] = track->x_m * rho_cos(zone->heading_rad) + track->y_m * rho_sin(zone->heading_rad);
+        at_m[0] = along_heading(zone, x_m, y_m);
         at_m[1] = 0.0f;
     }
     for (int axis = 0; axis < 2; axis++) {
@@ -275,37 +271,31 @@ enum rho_status rho_zones_step(struct rho_zones *zones, const struct rho_report 
     struct occupants occupants_of[RHO_ZONE_PLACES] = {{0}};
     unsigned from = 0;
     for (unsigned i = 0; i < report->num_tracks; i++) {
-        const struct rho_track_report *reported = &report->tracks[i];
-        const float vx_mps = reported->state[RHO_VX], vy_mps = reported->state[RHO_VY];
-        const struct zone_track track = {.track_id = reported->track_id,
-                                         .x_m = reported->state[RHO_X],
-                                         .y_m = reported->state[RHO_Y],
-                                         .vx_mps = vx_mps,
-                                         .vy_mps = vy_mps,
-                                         .speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps),
-                                         .is_believed = reported->status == RHO_TRACK_CONFIRMED};
+        const struct rho_track_report *track = &report->tracks[i];
+        const float x_m = track->state[RHO_X], y_m = track->state[RHO_Y];
+        const float vx_mps = track->state[RHO_VX], vy_mps = track->state[RHO_VY];
         struct rho_zone_visitor *visitor = NULL;
         for (unsigned k = 0; k < zones->num_visitors && !visitor; k++) {
             const unsigned at = (from + k) % zones->num_visitors;
-            if (zones->visitors[at].track_id == track.track_id) {
+            if (zones->visitors[at].track_id == track->track_id) {
                 from = at + 1u;
                 visitor = &zones->visitors[at];
             }
         }
         if (!visitor) { /* the first free one, prepared for a track that is in no zone yet */
             visitor = &zones->visitors[zones->num_visitors];
-            visitor->track_id = track.track_id;
+            visitor->track_id = track->track_id;
             visitor->inside = visitor->queued = 0;
         }
+        visitor->speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
         for (unsigned place = 0; place < zones->num_zones; place++) {
             const struct rho_extent *bounds = &zones->bounds[place];
             if ((visitor->inside >> place & 1u) ||
-                (track.x_m >= bounds->x_min_m && track.x_m <= bounds->x_max_m &&
-                 track.y_m >= bounds->y_min_m && track.y_m <= bounds->y_max_m)) {
-                update_zone(zones, visitor, place, &track, &occupants_of[place]);
+                (x_m >= bounds->x_min_m && x_m <= bounds->x_max_m && y_m >= bounds->y_min_m &&
+                 y_m <= bounds->y_max_m)) {
+                update_zone(zones, visitor, place, track, &occupants_of[place]);
             }
         }
-        visitor->speed_mps = track.speed_mps;
         if (visitor->inside != 0 && visitor == &zones->visitors[zones->num_visitors]) {
             zones->num_visitors++;
         }

@@ -38,6 +38,21 @@ static void consecutive_scan_numbers_are_accepted(void **state)
     assert_int_equal(assembler.sources[0].interval_us, SECOND_US);
 }
 
+static void scans_may_be_an_hour_apart(void **state)
+{
+    const int64_t hour_us = 3600 * SECOND_US;
+    struct rho_scan_assembler_config config = usual_config();
+
+    (void)state;
+    config.jump_max_us = hour_us;
+    start_assembler_with(&config);
+    epoch = 0;
+    for (int32_t i = 0; i < 3; i++) {
+        assert_true(push_scan(1 + i, i * hour_us, i * hour_us));
+    }
+    assert_int_equal(assembler.sources[0].interval_us, hour_us);
+}
+
 static void scan_numbers_wrap_at_32_bits(void **state)
 {
     (void)state;
@@ -417,6 +432,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(consecutive_scan_numbers_are_accepted),
+        cmocka_unit_test(scans_may_be_an_hour_apart),
         cmocka_unit_test(scan_numbers_wrap_at_32_bits),
         cmocka_unit_test(skipped_scan_numbers_are_counted_as_lost),
         cmocka_unit_test(at_most_skip_max_numbers_may_be_skipped),
