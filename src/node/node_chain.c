@@ -32,7 +32,7 @@ enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan
         node->counters.scans_refused = rho_count(node->counters.scans_refused, 1);
         return status;
     }
-    node->stepped = RHO_NODE_SCAN;
+    node->done = RHO_NODE_SCAN;
     if (RHO_PAPERS && is_by_paper) {
         status =
             rho_paper_starts_step(NODE_PAPER_STARTS(node), &node->tracker, scan, &node->report);
@@ -53,7 +53,7 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
         node->counters.frames_refused = rho_count(node->counters.frames_refused, 1);
         return status;
     }
-    node->stepped = RHO_NODE_FRAME;
+    node->done = RHO_NODE_FRAME;
     if (is_by_paper && rho_passive_paper_step(NODE_PASSIVE_PAPER(node), &node->tracker, frame,
                                               &node->report) != RHO_OK) {
         rho_node_frames_restart(node); /* the frame's sensors do not fit the batch */
@@ -63,14 +63,27 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
 
 enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan *scan)
 {
-    const enum rho_status status = node_check(node, scan);
-    return status == RHO_OK ? rho_node_chain_scan(node, scan, 0) : status;
+    enum rho_status status = node_check(node, scan);
+    if (status == RHO_OK) {
+        rho_node_answers_drop(node);
+        node->done = RHO_NODE_NOTHING;
+        status = rho_node_chain_scan(node, scan, 0);
+        rho_node_answers_show(node);
+    }
+    return status;
 }
 
 enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_frame *frame)
 {
-    const enum rho_status status = node_check(node, frame);
-    return status != RHO_OK        ? status
-           : RHO_NODE_HAS_BEARINGS ? rho_node_chain_frame(node, frame)
-                                   : RHO_ERROR_TYPE;
+    enum rho_status status = node_check(node, frame);
+    if (status == RHO_OK && !RHO_NODE_HAS_BEARINGS) {
+        return RHO_ERROR_TYPE;
+    }
+    if (status == RHO_OK) {
+        rho_node_answers_drop(node);
+        node->done = RHO_NODE_NOTHING;
+        status = rho_node_chain_frame(node, frame);
+        rho_node_answers_show(node);
+    }
+    return status;
 }

@@ -18,11 +18,6 @@ void rho_node_answers_drop(struct rho_node *node)
     }
 }
 
-unsigned rho_node_answers_count(const struct rho_node *node)
-{
-    return RHO_MAX_COMMANDS > 0 ? NODE_OPERATOR(node)->num_answers : 0;
-}
-
 void rho_node_answers_show(struct rho_node *node)
 {
     if (RHO_MAX_COMMANDS > 0) {
@@ -60,6 +55,7 @@ static struct rho_node_answer *add_answer(struct rho_node_operator *operated)
         memmove(operated->answers, operated->answers + 1,
                 (size_t)RHO_MAX_COMMANDS * sizeof operated->answers[0]);
         operated->num_answers--;
+        operated->num_shown = (uint16_t)(operated->num_shown - (operated->num_shown > 0));
     }
     return &operated->answers[operated->num_answers++];
 }
