@@ -119,6 +119,17 @@ int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
 /* Describes a sensor to the tracker; returns 0 where that refuses it. */
 int rho_node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
 
+/*
+ * node_settings.c: fills in configurations of tracker and initiator as they follow the settings;
+ * the node's own settings leave them as they are. CONFIG: as rho_node_set_settings.
+ */
+enum rho_status rho_node_settings_prepare(struct rho_node *node,
+                                          const struct rho_settings *settings,
+                                          struct rho_node_config *config);
+
+/* Makes prepared settings the node's; descriptions of sensors follow them. */
+void rho_node_settings_adopt(struct rho_node *node, const struct rho_settings *settings);
+
 /* The chain of a step (node.h); is_live: the scan came as messages. */
 enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan *scan,
                                     int is_live);
@@ -148,7 +159,6 @@ void rho_node_commands_run(struct rho_node *node);
 /* node_commands.c: answers that are published are dropped; the others become messages. */
 void rho_node_answers_drop(struct rho_node *node);
 void rho_node_answers_show(struct rho_node *node);
-unsigned rho_node_answers_count(const struct rho_node *node);
 /* due_us, or sooner where an answer waits or a command becomes too old. */
 int64_t rho_node_answers_due(const struct rho_node *node, int64_t due_us);
 
