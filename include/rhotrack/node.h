@@ -389,9 +389,8 @@ RHO_MUST_CHECK enum rho_status rho_node_step_frame(struct rho_node *node,
 
 /*
  * Number of messages of the last rho_node_next, rho_node_step_scan or rho_node_step_frame: answers
- * to an operator; after a step tracks in parts, peaks, the tracks' bodies in parts where the tracker
- * estimates bodies, and events of zones, if any. Cost: with bodies, that of
- * rho_publish_num_body_parts.
+ * to an operator; after a step tracks in parts, peaks, bodies in parts where the tracker estimates
+ * them, and events of zones, if any. Cost: with bodies, that of rho_publish_num_body_parts.
  */
 uint16_t rho_node_num_messages(const struct rho_node *node);
 
