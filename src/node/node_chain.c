@@ -12,6 +12,7 @@ static enum rho_status end_step(struct rho_node *node, enum rho_status status)
     node->step = node->step == INT32_MAX ? INT32_MIN : node->step + 1;
     if (RHO_MAX_COMMANDS > 0) {
         rho_node_commands_run(node);
+        rho_node_answers_show(node);
     }
     if (RHO_MAX_ZONES > 0 && NODE_ZONES(node)->num_zones > 0) {
         (void)!rho_zones_step(NODE_ZONES(node), &node->report); /* takes any report of a step */
@@ -61,29 +62,27 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
     return end_step(node, RHO_OK);
 }
 
-enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan *scan)
+/* Begins a step that the caller asks for: the last one's messages are gone. */
+static enum rho_status begin_step(struct rho_node *node, const void *given)
 {
-    enum rho_status status = node_check(node, scan);
+    const enum rho_status status = node_check(node, given);
     if (status == RHO_OK) {
         rho_node_answers_drop(node);
         node->done = RHO_NODE_NOTHING;
-        status = rho_node_chain_scan(node, scan, 0);
-        rho_node_answers_show(node);
     }
     return status;
 }
 
+enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan *scan)
+{
+    const enum rho_status status = begin_step(node, scan);
+    return status == RHO_OK ? rho_node_chain_scan(node, scan, 0) : status;
+}
+
 enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_frame *frame)
 {
-    enum rho_status status = node_check(node, frame);
-    if (status == RHO_OK && !RHO_NODE_HAS_BEARINGS) {
-        return RHO_ERROR_TYPE;
-    }
-    if (status == RHO_OK) {
-        rho_node_answers_drop(node);
-        node->done = RHO_NODE_NOTHING;
-        status = rho_node_chain_frame(node, frame);
-        rho_node_answers_show(node);
-    }
-    return status;
+    const enum rho_status status = begin_step(node, frame);
+    return status != RHO_OK        ? status
+           : RHO_NODE_HAS_BEARINGS ? rho_node_chain_frame(node, frame)
+                                   : RHO_ERROR_TYPE;
 }
