@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* node_windows: the initiation windows of radars, and which two radars share one (node.h). */
+#include "../wire/scan_internal.h"
 #include "node_parts.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
@@ -87,26 +88,15 @@ enum rho_status rho_node_windows_init(struct rho_node *node,
                : RHO_OK;
 }
 
-/* Interval between a sensor's scans; 0: not known yet. */
-static float scan_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
+static int are_alike(const struct rho_tracker_sensor *one_row,
+                     const struct rho_tracker_sensor *other_row, float turns_max)
 {
-    for (unsigned i = 0; i < tracker->num_rows; i++) {
-        if (tracker->sensors[i].sensor.sensor_id == sensor_id) {
-            return tracker->sensors[i].pace.interval_s;
-        }
-    }
-    return 0.0f;
-}
-
-static int are_alike(const struct rho_tracker *tracker, const struct rho_sensor *one,
-                     const struct rho_sensor *other, float turns_max)
-{
+    const struct rho_sensor *one = &one_row->sensor, *other = &other_row->sensor;
     const float x_m = one->x_m - other->x_m, y_m = one->y_m - other->y_m;
     const float apart_m = rho_sqrt(x_m * x_m + y_m * y_m);
     const float shorter_m = rho_smaller(one->range_max_m, other->range_max_m);
     const float longer_m = rho_larger(one->range_max_m, other->range_max_m);
-    const float one_s = scan_interval_s(tracker, one->sensor_id);
-    const float other_s = scan_interval_s(tracker, other->sensor_id);
+    const float one_s = one_row->pace.interval_s, other_s = other_row->pace.interval_s;
     const int is_known = one_s > 0.0f && other_s > 0.0f;
     return rho_angle_is_circle(one->sector_from_rad, one->sector_to_rad) &&
            rho_angle_is_circle(other->sector_from_rad, other->sector_to_rad) &&
@@ -130,12 +120,8 @@ static int had_own_window(const struct rho_node *node, int32_t sensor_id)
 /* A stranger's messages would take half of a window. */
 static int may_share(const struct rho_node *node, int32_t sensor_id, int is_live)
 {
-    for (unsigned i = 0; is_live && i < node->assembler.num_known; i++) {
-        if (node->assembler.known[i].sensor.sensor_id == sensor_id) {
-            return 1;
-        }
-    }
-    return !is_live;
+    const struct rho_scan_assembler *assembler = &node->assembler;
+    return !is_live || rho_scan_sensor(assembler, sensor_id) != &assembler->config.other;
 }
 
 /* The sensor that names the window: the scan's, or one described before it that shares with it. */
@@ -148,17 +134,17 @@ static int32_t sensor_of_window(const struct rho_node *node, const struct rho_sc
         return scan->sensor_id;
     }
     for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        const struct rho_sensor *one = &tracker->sensors[i].sensor;
+        const struct rho_tracker_sensor *one = &tracker->sensors[i];
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
-            const struct rho_sensor *other = &tracker->sensors[j].sensor;
+            const struct rho_tracker_sensor *other = &tracker->sensors[j];
+            const int32_t other_id = other->sensor.sensor_id;
             is_paired[i] =
-                !is_paired[j] && may_share(node, one->sensor_id, is_live) &&
-                may_share(node, other->sensor_id, is_live) &&
-                are_alike(tracker, one, other,
-                          had_own_window(node, other->sensor_id) ? TURNS_AGAIN_MAX : TURNS_MAX);
+                !is_paired[j] && may_share(node, one->sensor.sensor_id, is_live) &&
+                may_share(node, other_id, is_live) &&
+                are_alike(one, other, had_own_window(node, other_id) ? TURNS_AGAIN_MAX : TURNS_MAX);
             is_paired[j] |= is_paired[i];
-            if (is_paired[i] && other->sensor_id == scan->sensor_id) {
-                return one->sensor_id;
+            if (is_paired[i] && other_id == scan->sensor_id) {
+                return one->sensor.sensor_id;
             }
         }
     }
