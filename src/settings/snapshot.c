@@ -167,25 +167,19 @@ static uint32_t layout_hash(void)
 
 /* Kinds */
 
-/* Size of the object of a snapshot kind; 0: there is no such kind in this build. */
+/* Sizes of the objects of the kinds; 0: there is no such kind in this build. */
+static const size_t sizes[] = {
+    [RHO_SNAPSHOT_TRACKER] = sizeof(struct rho_tracker),
+    [RHO_SNAPSHOT_INITIATOR] = sizeof(struct rho_initiator),
+    [RHO_SNAPSHOT_PASSIVE] = sizeof(struct rho_passive),
+    [RHO_SNAPSHOT_SETTINGS] = sizeof(struct rho_settings),
+    [RHO_SNAPSHOT_CLUTTER_MAP] = RHO_MAX_ECHOES > 0 ? sizeof(struct rho_clutter_map) : 0,
+    [RHO_SNAPSHOT_REFLECTORS] = RHO_MAX_REFLECTORS > 0 ? sizeof(struct rho_reflector_learning) : 0,
+};
+
 static size_t size_of_kind(uint32_t kind)
 {
-    switch (kind) {
-    case RHO_SNAPSHOT_TRACKER:
-        return sizeof(struct rho_tracker);
-    case RHO_SNAPSHOT_INITIATOR:
-        return sizeof(struct rho_initiator);
-    case RHO_SNAPSHOT_PASSIVE:
-        return sizeof(struct rho_passive);
-    case RHO_SNAPSHOT_SETTINGS:
-        return sizeof(struct rho_settings);
-    case RHO_SNAPSHOT_CLUTTER_MAP:
-        return RHO_MAX_ECHOES > 0 ? sizeof(struct rho_clutter_map) : 0;
-    case RHO_SNAPSHOT_REFLECTORS:
-        return RHO_MAX_REFLECTORS > 0 ? sizeof(struct rho_reflector_learning) : 0;
-    default:
-        return 0;
-    }
+    return kind < sizeof sizes / sizeof sizes[0] ? sizes[kind] : 0;
 }
 
 static int is_object_sound(uint32_t kind, const void *object)
