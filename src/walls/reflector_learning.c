@@ -386,11 +386,8 @@ static int has_tracker_these_walls(const struct rho_reflector_learning *learning
         if (!rho_reflector_learning_wall(learning, i, &a)) {
             continue;
         }
-        const struct rho_reflector *b = &tracker->reflectors[count];
-        if (count >= tracker->num_reflectors || a.from_x_m < b->from_x_m ||
-            a.from_x_m > b->from_x_m || a.from_y_m < b->from_y_m || a.from_y_m > b->from_y_m ||
-            a.to_x_m < b->to_x_m || a.to_x_m > b->to_x_m || a.to_y_m < b->to_y_m ||
-            a.to_y_m > b->to_y_m) {
+        if (count >= tracker->num_reflectors ||
+            memcmp(&a, &tracker->reflectors[count], sizeof a) != 0) {
             return 0;
         }
         count++;
