@@ -411,42 +411,6 @@ size_t rho_snapshot_offset(const struct rho_snapshot_part *parts, unsigned num_p
     return offset;
 }
 
-enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigned num_parts,
-                                  const void *image, size_t size)
-{
-    const uint8_t *bytes = image;
-    enum rho_status status = check_parts(parts, num_parts);
-    if (status == RHO_OK) {
-        status = check_image(bytes, size);
-    }
-    if (status != RHO_OK) {
-        return status;
-    }
-    if (get_u32(bytes + NUM_PARTS_AT) != num_parts) {
-        return RHO_ERROR_COUNT;
-    }
-    for (unsigned i = 0; i < num_parts; i++) {
-        if (part_field(bytes, i, 0) != (uint32_t)parts[i].kind ||
-            part_field(bytes, i, 1) != (uint32_t)parts[i].id) {
-            return RHO_ERROR_COUNT;
-        }
-    }
-    /* all objects are checked before any part is changed */
-    for (int is_copy = 0; is_copy < 2; is_copy++) {
-        for (unsigned i = 0; i < num_parts; i++) {
-            const uint8_t *object = bytes + rho_snapshot_offset(parts, num_parts, i);
-            if (is_copy) {
-                memcpy(parts[i].object, object, parts[i].size);
-            } else if (!is_object_sound((uint32_t)parts[i].kind, object)) {
-                return RHO_ERROR_VALUE;
-            }
-        }
-    }
-    return RHO_OK;
-}
-
-/* Load in pieces */
-
 static size_t smaller_size(size_t a, size_t b)
 {
     return a < b ? a : b;
@@ -472,6 +436,38 @@ static enum rho_status compare_header(const struct rho_snapshot_loader *loader,
     }
     return RHO_OK;
 }
+
+enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigned num_parts,
+                                  const void *image, size_t size)
+{
+    const uint8_t *bytes = image;
+    enum rho_status status = check_parts(parts, num_parts);
+    if (status == RHO_OK) {
+        status = check_image(bytes, size);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    const struct rho_snapshot_loader whole = {.parts = parts, .num_parts = num_parts};
+    status = compare_header(&whole, bytes, rho_snapshot_offset(parts, num_parts, 0));
+    if (status != RHO_OK) {
+        return status;
+    }
+    /* all objects are checked before any part is changed */
+    for (int is_copy = 0; is_copy < 2; is_copy++) {
+        for (unsigned i = 0; i < num_parts; i++) {
+            const uint8_t *object = bytes + rho_snapshot_offset(parts, num_parts, i);
+            if (is_copy) {
+                memcpy(parts[i].object, object, parts[i].size);
+            } else if (!is_object_sound((uint32_t)parts[i].kind, object)) {
+                return RHO_ERROR_VALUE;
+            }
+        }
+    }
+    return RHO_OK;
+}
+
+/* Load in pieces */
 
 /* Copies the bytes of a piece of an image that belong to objects. */
 static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *bytes, size_t size)
