@@ -104,17 +104,14 @@ static int are_alike(const struct rho_tracker_sensor *one_row,
            (!is_known || rho_larger(one_s, other_s) <= turns_max * rho_smaller(one_s, other_s));
 }
 
-/*
- * True where the sensor had a window of its own before: it has parted from a window that it shared.
- */
-static int had_own_window(const struct rho_node *node, int32_t sensor_id)
+/* Place of the sensor's window, or where it would be. */
+static unsigned place_of(const struct rho_node_window_list *windows, int32_t sensor_id)
 {
-    for (unsigned i = 0; i < node->windows.count && node->windows.has_sensor; i++) {
-        if (node->windows.sensor_id[i] == sensor_id) {
-            return 1;
-        }
+    unsigned place = windows->has_sensor ? 0 : windows->count;
+    while (place < windows->count && windows->sensor_id[place] != sensor_id) {
+        place++;
     }
-    return 0;
+    return place;
 }
 
 /* A stranger's messages would take half of a window. */
@@ -138,10 +135,11 @@ static int32_t sensor_of_window(const struct rho_node *node, const struct rho_sc
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
             const struct rho_tracker_sensor *other = &tracker->sensors[j];
             const int32_t other_id = other->sensor.sensor_id;
-            is_paired[i] =
-                !is_paired[j] && may_share(node, one->sensor.sensor_id, is_live) &&
-                may_share(node, other_id, is_live) &&
-                are_alike(one, other, had_own_window(node, other_id) ? TURNS_AGAIN_MAX : TURNS_MAX);
+            /* it had a window of its own before: it has parted from one that it shared */
+            const int is_again = place_of(&node->windows, other_id) < node->windows.count;
+            is_paired[i] = !is_paired[j] && may_share(node, one->sensor.sensor_id, is_live) &&
+                           may_share(node, other_id, is_live) &&
+                           are_alike(one, other, is_again ? TURNS_AGAIN_MAX : TURNS_MAX);
             is_paired[j] |= is_paired[i];
             if (is_paired[i] && other_id == scan->sensor_id) {
                 return one->sensor.sensor_id;
@@ -187,25 +185,14 @@ static void copy_shared_scans(struct rho_node *node, struct rho_initiator *to, i
     }
 }
 
-/* Place of the sensor's window, or where it would be. The first exists before its sensor. */
-static unsigned place_of(struct rho_node *node, int32_t sensor_id)
-{
-    struct rho_node_window_list *windows = &node->windows;
-    unsigned place = 0;
-    if (!windows->has_sensor) {
-        windows->has_sensor = 1;
-        windows->sensor_id[0] = sensor_id;
-    }
-    while (place < windows->count && windows->sensor_id[place] != sensor_id) {
-        place++;
-    }
-    return place;
-}
-
 struct rho_initiator *rho_node_windows_add(struct rho_node *node, int32_t sensor_id)
 {
     struct rho_node_window_list *windows = &node->windows;
-    const unsigned place = place_of(node, sensor_id);
+    if (!windows->has_sensor) { /* the first window exists before its sensor */
+        windows->has_sensor = 1;
+        windows->sensor_id[0] = sensor_id;
+    }
+    const unsigned place = place_of(windows, sensor_id);
     if (place == windows->count) {
         if (place == windows->num_places ||
             rho_initiator_init(window_at(node, place), sizeof *NODE_INITIATOR(node),
