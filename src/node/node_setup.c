@@ -117,7 +117,6 @@ enum rho_status rho_node_configure(struct rho_node *node, const struct rho_node_
     memset(&node->item, 0, offsetof(struct rho_node, report) - offsetof(struct rho_node, item));
     node->epoch = config->epoch;
     node->options = config->options;
-    node->frame_due_us = INT64_MAX;
     if (RHO_MAX_COMMANDS > 0) {
         NODE_OPERATOR(node)->num_commands = NODE_OPERATOR(node)->num_answers = 0;
         NODE_OPERATOR(node)->num_shown = 0;
@@ -192,10 +191,9 @@ void rho_node_restart(struct rho_node *node)
     if (RHO_SEARCHES) {
         (void)!rho_node_windows_init(node, &NODE_INITIATOR(node)->config);
     }
-    struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
-    if (starts && rho_node_is_plots_by_paper(node)) {
-        const struct rho_paper_starts_config config = starts->config;
-        (void)!rho_paper_starts_init(starts, sizeof *starts, &config);
+    if (rho_node_is_plots_by_paper(node)) {
+        struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
+        (void)!rho_paper_starts_init(starts, sizeof *starts, &starts->config);
     }
     rho_node_frames_restart(node);
     node->epoch = node->epoch == INT32_MAX ? 0 : node->epoch + 1;
