@@ -49,6 +49,13 @@ enum rho_status rho_node_settings_prepare(struct rho_node *node,
     if (rho_settings_check(settings, NULL) != RHO_OK) {
         return RHO_ERROR_CONFIG;
     }
+    config->tracker = node->tracker.config;
+    if (RHO_SEARCHES) {
+        config->initiator = NODE_INITIATOR(node)->config;
+    }
+    if (memcmp(settings, &node->settings, sizeof *settings) == 0) {
+        return RHO_OK;
+    }
     for (unsigned i = 0; i <= node->assembler.num_known; i++) {
         struct rho_scan_assembler_sensor known = *description_at(node, i);
         follow_settings(&known, &node->settings, settings);
@@ -56,14 +63,7 @@ enum rho_status rho_node_settings_prepare(struct rho_node *node,
             return RHO_ERROR_CONFIG;
         }
     }
-    config->tracker = node->tracker.config;
-    if (RHO_SEARCHES) {
-        config->initiator = NODE_INITIATOR(node)->config;
-    }
-    if (memcmp(settings, &node->settings, sizeof *settings) != 0) {
-        rho_settings_apply(settings, &config->tracker, RHO_SEARCHES ? &config->initiator : NULL,
-                           NULL);
-    }
+    rho_settings_apply(settings, &config->tracker, RHO_SEARCHES ? &config->initiator : NULL, NULL);
     return RHO_OK;
 }
 
