@@ -21,18 +21,35 @@ static void start_node_of_operator(int takes_commands)
     wanted = RHO_MESSAGE_COMMAND_ANSWER_CHANNEL;
 }
 
-/* Excludes a square, of which number is the side in metres. */
-static void send_command(int32_t number)
+/* Encodes the exclusion of a square, of which number is the side in metres. */
+static size_t encode_command(int32_t number, uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE])
 {
     const struct rho_message_command command = {.number = number,
                                                 .action = RHO_MESSAGE_COMMAND_EXCLUDE,
                                                 .x_max_m = (float)number,
                                                 .y_max_m = (float)number};
-    uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE];
     size_t size;
 
-    assert_int_equal(rho_message_command_encode(&command, bytes, sizeof bytes, &size), RHO_OK);
-    take_message(RHO_MESSAGE_COMMAND_CHANNEL, bytes, size);
+    assert_int_equal(
+        rho_message_command_encode(&command, bytes, RHO_MESSAGE_COMMAND_MAX_SIZE, &size), RHO_OK);
+    return size;
+}
+
+static void send_command(int32_t number)
+{
+    uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE];
+
+    take_message(RHO_MESSAGE_COMMAND_CHANNEL, bytes, encode_command(number, bytes));
+}
+
+/* Gives the node a command, and lets it do nothing. */
+static void leave_command(int32_t number)
+{
+    uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE];
+    const size_t size = encode_command(number, bytes);
+
+    assert_int_equal(rho_node_take(&node, RHO_MESSAGE_COMMAND_CHANNEL, bytes, size, now_us),
+                     RHO_OK);
 }
 
 static void send_setting(int16_t field, float value)
@@ -165,33 +182,18 @@ static void a_step_without_messages_answers_commands(void **state)
 /* Answers that nobody publishes push out older ones: those of the last step are no longer all. */
 static void answers_beyond_the_list_are_not_published_for_others(void **state)
 {
-    uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE];
-    size_t size;
-
     (void)state;
     start_node_of_operator(1);
     for (int32_t number = 1; number <= RHO_MAX_COMMANDS + 1; number++) {
         send_command(number);
     }
     for (int32_t number = 200; number < 200 + RHO_MAX_COMMANDS; number++) {
-        const struct rho_message_command command = {.number = number,
-                                                    .action = RHO_MESSAGE_COMMAND_EXCLUDE,
-                                                    .x_max_m = 1.0f,
-                                                    .y_max_m = 1.0f};
-        assert_int_equal(rho_message_command_encode(&command, bytes, sizeof bytes, &size), RHO_OK);
-        assert_int_equal(rho_node_take(&node, RHO_MESSAGE_COMMAND_CHANNEL, bytes, size, now_us),
-                         RHO_OK);
+        leave_command(number);
     }
     assert_int_equal(rho_node_next(&node, now_us), RHO_NODE_ANSWER);
     assert_int_equal(rho_node_num_messages(&node), RHO_MAX_COMMANDS);
     for (int32_t number = 300; number < 303; number++) { /* one finds room, two push out */
-        const struct rho_message_command command = {.number = number,
-                                                    .action = RHO_MESSAGE_COMMAND_EXCLUDE,
-                                                    .x_max_m = 1.0f,
-                                                    .y_max_m = 1.0f};
-        assert_int_equal(rho_message_command_encode(&command, bytes, sizeof bytes, &size), RHO_OK);
-        assert_int_equal(rho_node_take(&node, RHO_MESSAGE_COMMAND_CHANNEL, bytes, size, now_us),
-                         RHO_OK);
+        leave_command(number);
     }
     assert_int_equal(rho_node_num_messages(&node), RHO_MAX_COMMANDS - 2);
     keep_wanted_messages();
