@@ -52,6 +52,9 @@ static void add_answer(struct rho_node *node, struct rho_node_answer *answer)
     answer->command.utime = answer->setting.utime = node->report.time_us;
     answer->command.scan = answer->setting.scan = node->step;
     answer->command.epoch = answer->setting.epoch = node->epoch;
+    if (RHO_MAX_COMMANDS == 0) {
+        return;
+    }
     if (operated->num_answers == RHO_MAX_COMMANDS + 1) {
         memmove(operated->answers, operated->answers + 1,
                 (size_t)RHO_MAX_COMMANDS * sizeof operated->answers[0]);

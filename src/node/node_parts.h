@@ -7,6 +7,8 @@
 #ifndef RHOTRACK_NODE_PARTS_H
 #define RHOTRACK_NODE_PARTS_H
 
+#include <string.h>
+
 #include "rhotrack/node.h"
 
 #define RHO_NODE_MAGIC 0x6e6f6465u
@@ -82,6 +84,12 @@ static inline int rho_node_is_ready(const struct rho_node *node)
 static inline enum rho_status node_check(const struct rho_node *node, const void *given)
 {
     return !node || !given ? RHO_ERROR_NULL : !rho_node_is_ready(node) ? RHO_ERROR_STATE : RHO_OK;
+}
+
+/* Configurations and settings are copied whole, so that equal ones have equal padding. */
+static inline int node_equals(const void *one, const void *other, size_t size)
+{
+    return memcmp(one, other, size) == 0;
 }
 
 /* 1 where the papers' methods start tracks, from plots or from bearings. */

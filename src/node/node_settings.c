@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* node_settings: puts changed settings into a running node and the descriptions of its sensors. */
-#include <string.h>
-
 #include "node_parts.h"
 
 static int is_same(float a, float b)
@@ -53,7 +51,7 @@ enum rho_status rho_node_settings_prepare(struct rho_node *node,
     if (RHO_SEARCHES) {
         config->initiator = NODE_INITIATOR(node)->config;
     }
-    if (memcmp(settings, &node->settings, sizeof *settings) == 0) {
+    if (node_equals(settings, &node->settings, sizeof *settings)) {
         return RHO_OK;
     }
     for (unsigned i = 0; i <= node->assembler.num_known; i++) {

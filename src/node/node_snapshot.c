@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* node_snapshot: the parts of a node as one image of bytes, and a node from an image. */
-#include <string.h>
-
 #include "node_parts.h"
 
 /* Identifier of the tracker's part: how sensors share the windows of the snapshot. */
@@ -109,17 +107,6 @@ static enum rho_status add_saved_windows(struct rho_node *node, const struct sav
     return RHO_OK;
 }
 
-static int has_same_parts(const struct saved *saved, const struct rho_snapshot_part *own,
-                          unsigned num_own)
-{
-    for (unsigned i = 0; i < num_own && num_own == saved->num_parts; i++) {
-        if (saved->parts[i].kind != own[i].kind || saved->parts[i].id != own[i].id) {
-            return 0;
-        }
-    }
-    return num_own == saved->num_parts;
-}
-
 /*
  * True where the image's objects have these configurations, and those of the node that no setting
  * changes.
@@ -132,16 +119,16 @@ static int has_same_configs(const struct saved *saved, const struct rho_node *no
         const struct rho_snapshot_part *part = &saved->parts[i];
         if (part->kind == RHO_SNAPSHOT_TRACKER) {
             const struct rho_tracker *tracker = object_of(saved, i);
-            is_same = memcmp(&tracker->config, &config->tracker, sizeof config->tracker) == 0;
-        } else if (part->kind == RHO_SNAPSHOT_INITIATOR) {
+            is_same = node_equals(&tracker->config, &config->tracker, sizeof config->tracker);
+        } else if (RHO_SEARCHES && part->kind == RHO_SNAPSHOT_INITIATOR) {
             const struct rho_initiator *window = object_of(saved, i);
-            is_same = memcmp(&window->config, &config->initiator, sizeof config->initiator) == 0;
+            is_same = node_equals(&window->config, &config->initiator, sizeof config->initiator);
         } else if (RHO_NODE_HAS_PASSIVE && part->kind == RHO_SNAPSHOT_PASSIVE) {
             const struct rho_passive *passive = object_of(saved, i);
             is_same =
-                memcmp(&passive->config, &NODE_PASSIVE(node)->config, sizeof passive->config) == 0;
+                node_equals(&passive->config, &NODE_PASSIVE(node)->config, sizeof passive->config);
         } else if (part->kind == RHO_SNAPSHOT_SETTINGS && part->id == SETTINGS_TOLD) {
-            is_same = memcmp(object_of(saved, i), &node->told, sizeof node->told) == 0;
+            is_same = node_equals(object_of(saved, i), &node->told, sizeof node->told);
         }
     }
     return is_same;
@@ -166,16 +153,15 @@ enum rho_status rho_node_load(struct rho_node *node, const void *image, size_t s
     if (status != RHO_OK) {
         return status;
     }
-    const unsigned num_own = rho_node_list_parts(node, own);
-    if (!has_same_parts(&saved, own, num_own) || !has_same_configs(&saved, node, &config)) {
+    if (!has_same_configs(&saved, node, &config)) {
         return RHO_ERROR_CONFIG;
     }
     const struct rho_settings before = node->settings;
-    status = rho_snapshot_load(own, num_own, image, size);
+    status = rho_snapshot_load(own, rho_node_list_parts(node, own), image, size);
     if (status == RHO_OK) {
         node->settings = before; /* from which the sensors' descriptions change */
         rho_node_settings_adopt(node, now);
         node->is_restored = 1;
     }
-    return status;
+    return status == RHO_ERROR_COUNT ? RHO_ERROR_CONFIG : status; /* other parts */
 }
