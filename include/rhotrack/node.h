@@ -230,8 +230,7 @@ struct rho_node {
     uint8_t is_making_room;
     uint8_t is_forgetting;
     uint8_t has_closed;
-    uint8_t done;         /* enum rho_node_due: what rho_node_next has done last */
-    uint8_t stepped;      /* enum rho_node_due: SCAN or FRAME, what was stepped last */
+    uint8_t done;         /* enum rho_node_due: what the last call for steps has done */
     uint8_t next_learned; /* place of the sensor whose learned_t rho_node_learned makes next */
     /* successive refused scans of each sensor of the frames */
     uint8_t refused_scans[RHO_MAX_PASSIVE_SENSORS];
@@ -283,7 +282,8 @@ void rho_node_config_default(struct rho_node_config *config, const struct rho_se
 /*
  * Prepares a node with rho_node_config_default; the settings are copied.
  *   size   sizeof(struct rho_node) of the caller
- * Errors: NULL, SIZE, CONFIG (a value that a part refuses). Cost: sizeof(node) bytes cleared.
+ * Errors: NULL, SIZE, CONFIG (settings that rho_settings_check refuses; where RHO_MAX_COMMANDS is
+ * 0, to save flash, only those that a part refuses). Cost: sizeof(node) bytes cleared.
  * Stack: 1.5 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_init(struct rho_node *node, size_t size,
@@ -291,7 +291,7 @@ RHO_MUST_CHECK enum rho_status rho_node_init(struct rho_node *node, size_t size,
 
 /*
  * Gives the parts of an initialised node other configurations; all of them begin anew, but zones,
- * storage and the node's counters stay.
+ * storage and the node's counters stay. Commands that wait are dropped.
  * Errors: NULL, STATE (not initialised), CONFIG (a value that a part refuses, or a part that the
  * build does not have): the node is then to be initialised again. Cost: that of rho_node_init.
  * Stack: 800 bytes.
@@ -302,8 +302,8 @@ RHO_MUST_CHECK enum rho_status rho_node_configure(struct rho_node *node,
 /*
  * Gives the parts for bearings alone other configurations: frames, passive_range_max_m, passive
  * search, and the papers' search where is_bearings_by_paper is set. They begin anew; tracks go on.
- * Errors: NULL, STATE, CONFIG, as rho_node_configure; TYPE (RHO_SCAN_KINDS has no bearings). Cost:
- * their bytes cleared. Stack: 300 bytes.
+ * Errors: NULL, STATE, CONFIG, as rho_node_configure; TYPE (RHO_SCAN_KINDS has no bearings): the
+ * node goes on. Cost: their bytes cleared. Stack: 300 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_node_configure_bearings(struct rho_node *node,
                                                            const struct rho_node_config *config);
@@ -311,8 +311,8 @@ RHO_MUST_CHECK enum rho_status rho_node_configure_bearings(struct rho_node *node
 /*
  * Gives tracker and initiators other configurations from the next step on; tracks, windows and all
  * that was learned go on. Nothing else of the config is used.
- * Errors: NULL, STATE, CONFIG, as rho_tracker_reconfigure and rho_initiator_reconfigure.
- * Cost: windows. Stack: 560 bytes.
+ * Errors: NULL, STATE, CONFIG, as rho_tracker_reconfigure and rho_initiator_reconfigure; nothing
+ * is changed. Cost: windows. Stack: 560 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_node_reconfigure(struct rho_node *node,
                                                     const struct rho_node_config *config);
@@ -320,7 +320,7 @@ RHO_MUST_CHECK enum rho_status rho_node_reconfigure(struct rho_node *node,
 /*
  * Applies other settings, from the next step on, to tracker, initiators and the descriptions of
  * sensors: a sensor follows a setting that its description equals (or a range that it does not
- * state).
+ * state). Settings that the node has change nothing.
  * Errors: NULL, STATE, CONFIG (rho_settings_check; or a sensor's least range would not be below its
  * largest); nothing is changed. Cost: windows and sensors. Stack: 900 bytes.
  */
@@ -360,9 +360,9 @@ RHO_MUST_CHECK enum rho_status rho_node_take(struct rho_node *node, const char *
 /*
  * Makes the next step that is due, or restarts the node, and returns what it has done;
  * RHO_NODE_NOTHING also where the node is not initialised. Steps that the tracker refuses are
- * counted and passed over. now_us INT64_MAX: no scan waits any longer. Cost: that of
- * rho_scan_assembler_next and of the chain; the plots of a scan are copied where it waits.
- * Stack: 4.5 KB.
+ * counted and passed over. now_us INT64_MAX: no scan waits any longer, and commands that wait are
+ * refused. Cost: that of rho_scan_assembler_next and of the chain; the plots of a scan are copied
+ * where it waits. Stack: 4.5 KB.
  */
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us);
 
@@ -379,7 +379,8 @@ int64_t rho_node_due_us(const struct rho_node *node);
  * Steps a scan or a frame by the same chain. The tracker is to know its sensor
  * (rho_tracker_set_sensor). Any two radars may share a window.
  * Errors: NULL, STATE (not initialised), TYPE (the build has no such scans), and those of
- * rho_tracker_step and rho_paper_starts_step. Stack: 4.3 KB.
+ * rho_tracker_step and rho_paper_starts_step; after the latter the step was made.
+ * Stack: 4.3 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_step_scan(struct rho_node *node,
                                                   const struct rho_scan *scan);
@@ -387,13 +388,13 @@ RHO_MUST_CHECK enum rho_status rho_node_step_frame(struct rho_node *node,
                                                    const struct rho_frame *frame);
 
 /*
- * Number of messages of the last rho_node_next: answers to an operator; after a step tracks in
- * parts, peaks, the tracks' bodies in parts where the tracker estimates bodies, and events of
- * zones, if any. Cost: with bodies, that of rho_publish_num_body_parts.
+ * Number of messages of the last rho_node_next, rho_node_step_scan or rho_node_step_frame: answers
+ * to an operator; after a step tracks in parts, peaks, bodies in parts where the tracker estimates
+ * them, and events of zones, if any. Cost: with bodies, that of rho_publish_num_body_parts.
  */
 uint16_t rho_node_num_messages(const struct rho_node *node);
 
-/* Channel of one of these messages; part: as in rho_node_publish. Constant cost. */
+/* Channel of one of these messages, by its part as below; NULL: no such part. Cost: as above. */
 const char *rho_node_channel(const struct rho_node *node, uint16_t part);
 
 /*
@@ -448,13 +449,13 @@ unsigned rho_node_list_parts(struct rho_node *node, struct rho_snapshot_part *pa
  *   image   as for rho_snapshot_load
  * Errors: those of rho_snapshot_load, CONFIG (the snapshot was made with other settings, or has
  * other parts), CAPACITY (too little storage). Nothing is changed, but windows begin anew. Cost:
- * that of rho_snapshot_load. Stack: 1.5 KB, and 16 bytes a window.
+ * that of rho_snapshot_load. Stack: 1.6 KB, and 16 bytes a window.
  */
 RHO_MUST_CHECK enum rho_status rho_node_load(struct rho_node *node, const void *image, size_t size);
 
 /*
  * Settings in a snapshot of a node, as they were when it was saved. Errors: those of
- * rho_snapshot_list, CONFIG (the image has none). Cost: the checksum. Stack: 250 bytes, and 16 a
+ * rho_snapshot_list, CONFIG (the image has none). Cost: the checksum. Stack: 280 bytes, and 16 a
  * window.
  */
 RHO_MUST_CHECK enum rho_status rho_node_saved_settings(const void *image, size_t size,

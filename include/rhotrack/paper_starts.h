@@ -46,18 +46,14 @@ struct rho_paper_starts_config {
     uint16_t scans_min;
 };
 
-/* Counters of the last search; they saturate. */
-struct rho_paper_starts_work {
-    uint32_t peaks, started;
-    uint32_t short_lines; /* lines that have plots in too few scans, or none in the newest scan */
-    /* lines that started no track: the tracker had no room, or could not follow their plots */
-    uint32_t refused;
-};
-
 /* A peak of the last search: the line of the plots that voted, and the track that it started. */
 struct rho_paper_line {
     struct rho_hough_track line; /* line and motion, at the time of the newest scan */
-    uint32_t track_id;           /* identity of the started track; 0: none was started */
+    /*
+     * identity of the started track; 0: none, as the line has plots in too few scans, or none in
+     * the newest one, or the tracker had no room, or could not follow the plots
+     */
+    uint32_t track_id;
 };
 
 struct rho_paper_starts {
@@ -68,7 +64,6 @@ struct rho_paper_starts {
     struct rho_hough_result result; /* result of the last search */
     struct rho_accumulator_peak peaks[RHO_PAPER_PEAKS];
     struct rho_paper_line lines[RHO_PAPER_PEAKS]; /* lines of the peaks: result.num_peaks of them */
-    struct rho_paper_starts_work work;
     /* 1: the last step searched; 0: the window had too few scans, or the scan was too old */
     uint32_t has_searched;
     /* the window in the arrays of the Hough transform; times are relative to the newest scan */

@@ -168,71 +168,61 @@ static int fetch_item(struct rho_node *node, int64_t now_us)
            rho_node_frames_close(node);
 }
 
-static enum rho_status step_closed_frame(struct rho_node *node)
+static void step_closed_frame(struct rho_node *node)
 {
     struct rho_frame_view view;
     (void)rho_frames_closed(NODE_FRAMES(node), &view);
-    return rho_node_chain_frame(node, &view.frame);
+    (void)!rho_node_chain_frame(node, &view.frame); /* `done` says whether it was stepped */
 }
 
-/* Does what is due; RHO_NODE_NOTHING where the tracker refuses it. */
-static enum rho_node_due do_due(struct rho_node *node, enum rho_node_due due)
+static void do_due(struct rho_node *node, enum rho_node_due due)
 {
-    enum rho_status status = RHO_OK;
     if (due == RHO_NODE_RESTART) {
         rho_node_commands_refuse(node, INT64_MAX);
         node->counters.restarts = rho_count(node->counters.restarts, 1);
         rho_node_restart(node);
+        node->done = RHO_NODE_RESTART;
     } else if (due == RHO_NODE_SCAN) {
-        status = rho_node_chain_scan(node, &node->scan, 1);
+        (void)!rho_node_chain_scan(node, &node->scan, 1); /* likewise */
     } else if (RHO_NODE_HAS_BEARINGS) {
-        status = step_closed_frame(node);
+        step_closed_frame(node);
     }
-    return status == RHO_OK ? due : RHO_NODE_NOTHING;
 }
 
-static enum rho_node_due do_next(struct rho_node *node, int64_t now_us)
+/* Goes on until something is done, or nothing is due. */
+static void do_next(struct rho_node *node, int64_t now_us)
 {
-    enum rho_node_due due = RHO_NODE_NOTHING;
     int has_more = 1;
-    while (has_more && due == RHO_NODE_NOTHING) {
-        due = give_held(node);
+    while (has_more && node->done == RHO_NODE_NOTHING) {
+        enum rho_node_due due = give_held(node);
         if (due == RHO_NODE_NOTHING && node->has_item) {
             due = take_item(node, now_us);
         } else if (due == RHO_NODE_NOTHING) {
             has_more = fetch_item(node, now_us);
         }
         if (due != RHO_NODE_NOTHING) {
-            due = do_due(node, due);
+            do_due(node, due);
         }
     }
-    return due;
 }
 
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)
 {
-    enum rho_node_due done = RHO_NODE_NOTHING;
     if (!rho_node_is_ready(node)) {
         return RHO_NODE_NOTHING;
     }
     if (now_us != INT64_MAX) {
         node->now_us = now_us;
     }
-    if (RHO_MAX_COMMANDS > 0) {
-        rho_node_answers_drop(node);
-        if (now_us > INT64_MIN + COMMAND_WAIT_US) {
-            rho_node_commands_refuse(node, now_us - COMMAND_WAIT_US);
-        }
-        done = rho_node_answers_count(node) > 0 ? RHO_NODE_ANSWER : RHO_NODE_NOTHING;
+    rho_node_answers_drop(node);
+    if (now_us > INT64_MIN + COMMAND_WAIT_US) {
+        rho_node_commands_refuse(node, now_us - COMMAND_WAIT_US);
     }
-    if (done == RHO_NODE_NOTHING) {
-        done = do_next(node, now_us);
-    }
-    node->done = (uint8_t)done;
-    if (RHO_MAX_COMMANDS > 0) {
-        rho_node_answers_show(node);
-    }
-    return done;
+    node->done = RHO_MAX_COMMANDS > 0 && NODE_OPERATOR(node)->num_answers > 0 ? RHO_NODE_ANSWER
+                                                                              : RHO_NODE_NOTHING;
+    do_next(node, now_us);
+    rho_node_answers_show(node);
+    return (enum rho_node_due)node->done;
 }
 
 enum rho_status rho_node_take(struct rho_node *node, const char *channel, const uint8_t *data,

@@ -12,6 +12,7 @@ static enum rho_status end_step(struct rho_node *node, enum rho_status status)
     node->step = node->step == INT32_MAX ? INT32_MIN : node->step + 1;
     if (RHO_MAX_COMMANDS > 0) {
         rho_node_commands_run(node);
+        rho_node_answers_show(node);
     }
     if (RHO_MAX_ZONES > 0 && NODE_ZONES(node)->num_zones > 0) {
         (void)!rho_zones_step(NODE_ZONES(node), &node->report); /* takes any report of a step */
@@ -32,7 +33,7 @@ enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan
         node->counters.scans_refused = rho_count(node->counters.scans_refused, 1);
         return status;
     }
-    node->stepped = RHO_NODE_SCAN;
+    node->done = RHO_NODE_SCAN;
     if (RHO_PAPERS && is_by_paper) {
         status =
             rho_paper_starts_step(NODE_PAPER_STARTS(node), &node->tracker, scan, &node->report);
@@ -53,7 +54,7 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
         node->counters.frames_refused = rho_count(node->counters.frames_refused, 1);
         return status;
     }
-    node->stepped = RHO_NODE_FRAME;
+    node->done = RHO_NODE_FRAME;
     if (is_by_paper && rho_passive_paper_step(NODE_PASSIVE_PAPER(node), &node->tracker, frame,
                                               &node->report) != RHO_OK) {
         rho_node_frames_restart(node); /* the frame's sensors do not fit the batch */
@@ -61,15 +62,26 @@ enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_fra
     return end_step(node, RHO_OK);
 }
 
+/* Begins a step that the caller asks for: the last one's messages are gone. */
+static enum rho_status begin_step(struct rho_node *node, const void *given)
+{
+    const enum rho_status status = node_check(node, given);
+    if (status == RHO_OK) {
+        rho_node_answers_drop(node);
+        node->done = RHO_NODE_NOTHING;
+    }
+    return status;
+}
+
 enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan *scan)
 {
-    const enum rho_status status = node_check(node, scan);
+    const enum rho_status status = begin_step(node, scan);
     return status == RHO_OK ? rho_node_chain_scan(node, scan, 0) : status;
 }
 
 enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_frame *frame)
 {
-    const enum rho_status status = node_check(node, frame);
+    const enum rho_status status = begin_step(node, frame);
     return status != RHO_OK        ? status
            : RHO_NODE_HAS_BEARINGS ? rho_node_chain_frame(node, frame)
                                    : RHO_ERROR_TYPE;

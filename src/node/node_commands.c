@@ -18,11 +18,6 @@ void rho_node_answers_drop(struct rho_node *node)
     }
 }
 
-unsigned rho_node_answers_count(const struct rho_node *node)
-{
-    return RHO_MAX_COMMANDS > 0 ? NODE_OPERATOR(node)->num_answers : 0;
-}
-
 void rho_node_answers_show(struct rho_node *node)
 {
     if (RHO_MAX_COMMANDS > 0) {
@@ -46,61 +41,42 @@ int64_t rho_node_answers_due(const struct rho_node *node, int64_t due_us)
     return sooner_us < due_us ? sooner_us : due_us;
 }
 
-static void count_answer(struct rho_node *node, int8_t status)
+/* Answers a command or a setting; the oldest answer is lost where the caller publishes none. */
+static void add_answer(struct rho_node *node, struct rho_node_answer *answer)
 {
+    struct rho_node_operator *operated = NODE_OPERATOR(node);
+    const int8_t status = answer->is_setting ? answer->setting.status : answer->command.status;
     uint32_t *counter =
         status == RHO_OK ? &node->counters.commands_done : &node->counters.commands_refused;
     *counter = rho_count(*counter, 1);
-}
-
-/* The next place for an answer; the oldest is lost where the caller publishes none. */
-static struct rho_node_answer *add_answer(struct rho_node_operator *operated)
-{
+    answer->command.utime = answer->setting.utime = node->report.time_us;
+    answer->command.scan = answer->setting.scan = node->step;
+    answer->command.epoch = answer->setting.epoch = node->epoch;
+    if (RHO_MAX_COMMANDS == 0) {
+        return;
+    }
     if (operated->num_answers == RHO_MAX_COMMANDS + 1) {
         memmove(operated->answers, operated->answers + 1,
                 (size_t)RHO_MAX_COMMANDS * sizeof operated->answers[0]);
         operated->num_answers--;
+        operated->num_shown = (uint16_t)(operated->num_shown - (operated->num_shown > 0));
     }
-    return &operated->answers[operated->num_answers++];
-}
-
-static void answer_command(struct rho_node *node, struct rho_message_command_answer *answer)
-{
-    count_answer(node, answer->status);
-    answer->scan = node->step;
-    answer->epoch = node->epoch;
-    if (RHO_MAX_COMMANDS > 0) {
-        *add_answer(NODE_OPERATOR(node)) = (struct rho_node_answer){.command = *answer};
-    }
-}
-
-static void answer_setting(struct rho_node *node, struct rho_message_setting_answer *answer)
-{
-    count_answer(node, answer->status);
-    answer->utime = node->report.time_us;
-    answer->scan = node->step;
-    answer->epoch = node->epoch;
-    if (RHO_MAX_COMMANDS > 0) {
-        *add_answer(NODE_OPERATOR(node)) =
-            (struct rho_node_answer){.is_setting = 1, .setting = *answer};
-    }
+    operated->answers[operated->num_answers++] = *answer;
 }
 
 static void refuse(struct rho_node *node, const struct rho_node_command *waiting,
                    enum rho_status status)
 {
-    struct rho_message_setting_answer setting = {.number = waiting->setting.number,
-                                                 .field = waiting->setting.field,
-                                                 .status = (int8_t)status};
-    struct rho_message_command_answer command = {.utime = node->report.time_us,
-                                                 .number = waiting->command.number,
-                                                 .action = waiting->command.action,
-                                                 .status = (int8_t)status};
-    if (waiting->is_setting) {
-        answer_setting(node, &setting);
-    } else {
-        answer_command(node, &command);
-    }
+    struct rho_node_answer answer = {
+        .is_setting = waiting->is_setting,
+        .command = {.number = waiting->command.number,
+                    .action = waiting->command.action,
+                    .status = (int8_t)status},
+        .setting = {.number = waiting->setting.number,
+                    .field = waiting->setting.field,
+                    .status = (int8_t)status},
+    };
+    add_answer(node, &answer);
 }
 
 void rho_node_commands_refuse(struct rho_node *node, int64_t before_us)
@@ -121,30 +97,29 @@ void rho_node_commands_refuse(struct rho_node *node, int64_t before_us)
 }
 
 /* Changes one setting as if the node had been started with it. */
-static void change_setting(struct rho_node *node, const struct rho_message_setting *setting)
+static void change_setting(struct rho_node *node, const struct rho_message_setting *setting,
+                           struct rho_message_setting_answer *answer)
 {
     struct rho_settings settings = node->settings;
-    struct rho_message_setting_answer answer;
-    if (rho_command_set(setting, &settings, &answer) == RHO_OK) {
+    if (rho_command_set(setting, &settings, answer) == RHO_OK) {
         /* the range of a single sensor may conflict with the setting */
-        answer.status = (int8_t)rho_node_set_settings(node, &settings);
-        node->settings_changed = rho_count(node->settings_changed, answer.status == RHO_OK);
+        answer->status = (int8_t)rho_node_set_settings(node, &settings);
+        node->settings_changed = rho_count(node->settings_changed, answer->status == RHO_OK);
     }
-    answer_setting(node, &answer);
 }
 
 void rho_node_commands_run(struct rho_node *node)
 {
     struct rho_node_operator *operated = NODE_OPERATOR(node);
-    struct rho_message_command_answer answer;
     for (unsigned i = 0; RHO_MAX_COMMANDS > 0 && i < operated->num_commands; i++) {
-        if (operated->commands[i].is_setting) {
-            change_setting(node, &operated->commands[i].setting);
+        struct rho_node_answer answer = {.is_setting = operated->commands[i].is_setting};
+        if (answer.is_setting) {
+            change_setting(node, &operated->commands[i].setting, &answer.setting);
         } else {
             (void)!rho_command_run(&operated->commands[i].command, &node->tracker, &node->report,
-                                   &answer); /* the status is in the answer */
-            answer_command(node, &answer);
+                                   &answer.command); /* the status is in the answer */
         }
+        add_answer(node, &answer);
     }
     if (RHO_MAX_COMMANDS > 0) {
         operated->num_commands = 0;

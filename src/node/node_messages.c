@@ -33,8 +33,12 @@ uint16_t rho_node_num_messages(const struct rho_node *node)
 
 const char *rho_node_channel(const struct rho_node *node, uint16_t part)
 {
-    const unsigned of = part - num_answers(node);
-    const unsigned peaks = rho_publish_num_parts(&node->report);
+    unsigned of, peaks;
+    if (part >= rho_node_num_messages(node)) {
+        return NULL;
+    }
+    of = part - num_answers(node);
+    peaks = rho_publish_num_parts(&node->report);
     if (RHO_MAX_COMMANDS > 0 && part < num_answers(node)) {
         return NODE_OPERATOR(node)->answers[part].is_setting ? RHO_MESSAGE_SETTING_ANSWER_CHANNEL
                                                              : RHO_MESSAGE_COMMAND_ANSWER_CHANNEL;
@@ -70,7 +74,7 @@ static enum rho_status publish_events(const struct rho_node *node, uint8_t *buff
 static enum rho_status publish_peaks(const struct rho_node *node, uint8_t *buffer, size_t capacity,
                                      size_t *size)
 {
-    const int is_frame = RHO_NODE_HAS_BEARINGS && node->stepped == RHO_NODE_FRAME;
+    const int is_frame = RHO_NODE_HAS_BEARINGS && node->done == RHO_NODE_FRAME;
     const struct rho_initiator *initiator =
         RHO_SEARCHES && !is_frame ? rho_node_windows_newest(node) : NULL;
     const struct rho_passive *passive =

@@ -7,6 +7,8 @@
 #ifndef RHOTRACK_NODE_PARTS_H
 #define RHOTRACK_NODE_PARTS_H
 
+#include <string.h>
+
 #include "rhotrack/node.h"
 
 #define RHO_NODE_MAGIC 0x6e6f6465u
@@ -84,6 +86,12 @@ static inline enum rho_status node_check(const struct rho_node *node, const void
     return !node || !given ? RHO_ERROR_NULL : !rho_node_is_ready(node) ? RHO_ERROR_STATE : RHO_OK;
 }
 
+/* Configurations and settings are copied whole, so that equal ones have equal padding. */
+static inline int node_equals(const void *one, const void *other, size_t size)
+{
+    return memcmp(one, other, size) == 0;
+}
+
 /* 1 where the papers' methods start tracks, from plots or from bearings. */
 static inline int rho_node_is_plots_by_paper(const struct rho_node *node)
 {
@@ -119,6 +127,17 @@ int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
 /* Describes a sensor to the tracker; returns 0 where that refuses it. */
 int rho_node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
 
+/*
+ * node_settings.c: fills in configurations of tracker and initiator as they follow the settings;
+ * the node's own settings leave them as they are. CONFIG: as rho_node_set_settings.
+ */
+enum rho_status rho_node_settings_prepare(struct rho_node *node,
+                                          const struct rho_settings *settings,
+                                          struct rho_node_config *config);
+
+/* Makes prepared settings the node's; descriptions of sensors follow them. */
+void rho_node_settings_adopt(struct rho_node *node, const struct rho_settings *settings);
+
 /* The chain of a step (node.h); is_live: the scan came as messages. */
 enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan *scan,
                                     int is_live);
@@ -148,7 +167,6 @@ void rho_node_commands_run(struct rho_node *node);
 /* node_commands.c: answers that are published are dropped; the others become messages. */
 void rho_node_answers_drop(struct rho_node *node);
 void rho_node_answers_show(struct rho_node *node);
-unsigned rho_node_answers_count(const struct rho_node *node);
 /* due_us, or sooner where an answer waits or a command becomes too old. */
 int64_t rho_node_answers_due(const struct rho_node *node, int64_t due_us);
 

@@ -33,40 +33,59 @@ static void follow_settings(struct rho_scan_assembler_sensor *known,
     FOLLOW(noise, sigma_rad);
 }
 
-static int has_usable_ranges(const struct rho_node *node, const struct rho_settings *settings)
+/* The descriptions of known sensors; the last one is that of all others. */
+static struct rho_scan_assembler_sensor *description_at(struct rho_node *node, unsigned place)
 {
-    for (unsigned i = 0; i < node->assembler.num_known; i++) {
-        struct rho_scan_assembler_sensor known = node->assembler.known[i];
+    struct rho_scan_assembler *assembler = &node->assembler;
+    return place < assembler->num_known ? &assembler->known[place] : &assembler->config.other;
+}
+
+enum rho_status rho_node_settings_prepare(struct rho_node *node,
+                                          const struct rho_settings *settings,
+                                          struct rho_node_config *config)
+{
+    if (rho_settings_check(settings, NULL) != RHO_OK) {
+        return RHO_ERROR_CONFIG;
+    }
+    config->tracker = node->tracker.config;
+    if (RHO_SEARCHES) {
+        config->initiator = NODE_INITIATOR(node)->config;
+    }
+    if (node_equals(settings, &node->settings, sizeof *settings)) {
+        return RHO_OK;
+    }
+    for (unsigned i = 0; i <= node->assembler.num_known; i++) {
+        struct rho_scan_assembler_sensor known = *description_at(node, i);
         follow_settings(&known, &node->settings, settings);
         if (!(known.sensor.range_min_m < known.sensor.range_max_m)) {
-            return 0;
+            return RHO_ERROR_CONFIG;
         }
     }
-    return 1;
+    rho_settings_apply(settings, &config->tracker, RHO_SEARCHES ? &config->initiator : NULL, NULL);
+    return RHO_OK;
+}
+
+void rho_node_settings_adopt(struct rho_node *node, const struct rho_settings *settings)
+{
+    const struct rho_settings before = node->settings;
+    for (unsigned i = 0; i <= node->assembler.num_known; i++) {
+        follow_settings(description_at(node, i), &before, settings);
+    }
+    node->settings = *settings;
 }
 
 enum rho_status rho_node_set_settings(struct rho_node *node, const struct rho_settings *settings)
 {
     struct rho_node_config config;
     enum rho_status status = node_check(node, settings);
-    if (status != RHO_OK) {
-        return status;
-    }
-    if (rho_settings_check(settings, NULL) != RHO_OK || !has_usable_ranges(node, settings)) {
-        return RHO_ERROR_CONFIG;
-    }
-    config.tracker = node->tracker.config;
-    if (RHO_SEARCHES) {
-        config.initiator = NODE_INITIATOR(node)->config;
-    }
-    rho_settings_apply(settings, &config.tracker, RHO_SEARCHES ? &config.initiator : NULL, NULL);
-    status = rho_node_reconfigure(node, &config);
     if (status == RHO_OK) {
-        for (unsigned i = 0; i < node->assembler.num_known; i++) {
-            follow_settings(&node->assembler.known[i], &node->settings, settings);
-        }
-        follow_settings(&node->assembler.config.other, &node->settings, settings);
-        node->settings = *settings;
+        status = rho_node_settings_prepare(node, settings, &config);
+    }
+    if (status == RHO_OK) {
+        status = rho_node_reconfigure(node, &config);
+    }
+    if (status == RHO_OK) {
+        rho_node_settings_adopt(node, settings);
     }
     return status;
 }

@@ -27,23 +27,18 @@ static void set_paper_defaults(struct rho_node_config *config, const struct rho_
     }
 }
 
-static void set_sensor_defaults(struct rho_scan_assembler_sensor *other,
-                                const struct rho_settings *settings)
-{
-    rho_settings_apply_sensor(settings, &other->sensor);
-    other->noise.sigma_range_m = settings->sigma_range_m;
-    other->noise.sigma_azimuth_rad = settings->sigma_azimuth_rad;
-    other->noise.sigma_elevation_rad = settings->sigma_elevation_rad;
-    other->noise.sigma_range_rate_mps = settings->sigma_range_rate_mps;
-    other->noise.sigma_rad = settings->sigma_rad;
-}
-
 void rho_node_config_default(struct rho_node_config *config, const struct rho_settings *settings)
 {
+    struct rho_scan_assembler_noise *noise = &config->assembler.other.noise;
     memset(config, 0, sizeof *config);
     rho_tracker_config_default(&config->tracker);
     rho_scan_assembler_config_default(&config->assembler);
-    set_sensor_defaults(&config->assembler.other, settings);
+    rho_settings_apply_sensor(settings, &config->assembler.other.sensor);
+    noise->sigma_range_m = settings->sigma_range_m;
+    noise->sigma_azimuth_rad = settings->sigma_azimuth_rad;
+    noise->sigma_elevation_rad = settings->sigma_elevation_rad;
+    noise->sigma_range_rate_mps = settings->sigma_range_rate_mps;
+    noise->sigma_rad = settings->sigma_rad;
     if (RHO_SEARCHES) {
         rho_initiator_config_default(&config->initiator);
     }
@@ -122,7 +117,10 @@ enum rho_status rho_node_configure(struct rho_node *node, const struct rho_node_
     memset(&node->item, 0, offsetof(struct rho_node, report) - offsetof(struct rho_node, item));
     node->epoch = config->epoch;
     node->options = config->options;
-    node->frame_due_us = INT64_MAX;
+    if (RHO_MAX_COMMANDS > 0) {
+        NODE_OPERATOR(node)->num_commands = NODE_OPERATOR(node)->num_answers = 0;
+        NODE_OPERATOR(node)->num_shown = 0;
+    }
     memset(&node->report, 0, sizeof node->report);
     status = has_unknown_parts(config) ? RHO_ERROR_CONFIG : init_tracking(node, config);
     if (status == RHO_OK) {
@@ -141,11 +139,15 @@ enum rho_status rho_node_configure(struct rho_node *node, const struct rho_node_
 enum rho_status rho_node_configure_bearings(struct rho_node *node,
                                             const struct rho_node_config *config)
 {
-    const enum rho_status status = node_check(node, config);
-    return status != RHO_OK            ? status
-           : !RHO_NODE_HAS_BEARINGS    ? RHO_ERROR_TYPE
-           : has_unknown_parts(config) ? RHO_ERROR_CONFIG
-                                       : init_bearings(node, config);
+    enum rho_status status = node_check(node, config);
+    if (status == RHO_OK && !RHO_NODE_HAS_BEARINGS) {
+        return RHO_ERROR_TYPE;
+    }
+    if (status == RHO_OK) {
+        status = has_unknown_parts(config) ? RHO_ERROR_CONFIG : init_bearings(node, config);
+        node->magic = status == RHO_OK ? RHO_NODE_MAGIC : 0;
+    }
+    return status;
 }
 
 enum rho_status rho_node_init(struct rho_node *node, size_t size,
@@ -161,9 +163,9 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
     }
     /* large parts that are not used are left alone: their pages need no memory then */
     memset(node, 0, offsetof(struct rho_node, report));
-    if (RHO_MAX_COMMANDS > 0) {
-        NODE_OPERATOR(node)->num_commands = NODE_OPERATOR(node)->num_answers = 0;
-        NODE_OPERATOR(node)->num_shown = 0;
+    /* both what an operator sets and a snapshot are refused where any setting is */
+    if (RHO_MAX_COMMANDS > 0 && rho_settings_check(settings, NULL) != RHO_OK) {
+        return RHO_ERROR_CONFIG;
     }
     if (RHO_MAX_ZONES > 0) {
         status = rho_zones_init(NODE_ZONES(node), sizeof *NODE_ZONES(node));
@@ -189,10 +191,9 @@ void rho_node_restart(struct rho_node *node)
     if (RHO_SEARCHES) {
         (void)!rho_node_windows_init(node, &NODE_INITIATOR(node)->config);
     }
-    struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
-    if (starts && rho_node_is_plots_by_paper(node)) {
-        const struct rho_paper_starts_config config = starts->config;
-        (void)!rho_paper_starts_init(starts, sizeof *starts, &config);
+    if (rho_node_is_plots_by_paper(node)) {
+        struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
+        (void)!rho_paper_starts_init(starts, sizeof *starts, &starts->config);
     }
     rho_node_frames_restart(node);
     node->epoch = node->epoch == INT32_MAX ? 0 : node->epoch + 1;
@@ -204,9 +205,13 @@ enum rho_status rho_node_reconfigure(struct rho_node *node, const struct rho_nod
     if (status != RHO_OK) {
         return status;
     }
+    const struct rho_tracker_config before = node->tracker.config;
     status = rho_tracker_reconfigure(&node->tracker, &config->tracker);
     for (unsigned i = 0; rho_node_window(node, i) && status == RHO_OK; i++) {
         status = rho_initiator_reconfigure(rho_node_window(node, i), &config->initiator);
+    }
+    if (status != RHO_OK) { /* the first window has refused what all would */
+        (void)!rho_tracker_reconfigure(&node->tracker, &before);
     }
     return status;
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* node_snapshot: the parts of a node as one image of bytes, and a node from an image. */
-#include <string.h>
-
 #include "node_parts.h"
 
 /* Identifier of the tracker's part: how sensors share the windows of the snapshot. */
@@ -53,28 +51,28 @@ struct saved {
     struct rho_snapshot_part parts[RHO_NODE_PARTS];
 };
 
-static enum rho_status list_image(struct saved *saved, const void *image, size_t size)
-{
-    enum rho_status status =
-        rho_snapshot_list(image, size, saved->parts, RHO_NODE_PARTS, &saved->num_parts);
-    saved->image = image;
-    return status == RHO_OK && saved->num_parts > RHO_NODE_PARTS ? RHO_ERROR_CONFIG : status;
-}
-
 static const void *object_of(const struct saved *saved, unsigned place)
 {
     return saved->image + rho_snapshot_offset(saved->parts, saved->num_parts, place);
 }
 
-/* The settings with this identifier in an image; NULL where it has none. */
-static const struct rho_settings *saved_settings(const struct saved *saved, int32_t id)
+/* Lists an image, and finds the settings that the node had when it was saved. */
+static enum rho_status list_image(struct saved *saved, const void *image, size_t size,
+                                  const struct rho_settings **settings)
 {
-    for (unsigned i = 0; i < saved->num_parts; i++) {
-        if (saved->parts[i].kind == RHO_SNAPSHOT_SETTINGS && saved->parts[i].id == id) {
-            return object_of(saved, i);
+    const enum rho_status status =
+        rho_snapshot_list(image, size, saved->parts, RHO_NODE_PARTS, &saved->num_parts);
+    saved->image = image;
+    if (status != RHO_OK) {
+        return status;
+    }
+    for (unsigned i = 0; i < saved->num_parts && saved->num_parts <= RHO_NODE_PARTS; i++) {
+        if (saved->parts[i].kind == RHO_SNAPSHOT_SETTINGS && saved->parts[i].id == SETTINGS_NOW) {
+            *settings = object_of(saved, i);
+            return rho_settings_check(*settings, NULL);
         }
     }
-    return NULL;
+    return RHO_ERROR_CONFIG;
 }
 
 enum rho_status rho_node_saved_settings(const void *image, size_t size,
@@ -82,16 +80,9 @@ enum rho_status rho_node_saved_settings(const void *image, size_t size,
 {
     struct saved saved;
     const struct rho_settings *now;
-    enum rho_status status;
-    if (!settings) {
-        return RHO_ERROR_NULL;
-    }
-    status = list_image(&saved, image, size);
-    now = status == RHO_OK ? saved_settings(&saved, SETTINGS_NOW) : NULL;
-    if (status == RHO_OK && (!now || rho_settings_check(now, NULL) != RHO_OK)) {
-        return RHO_ERROR_CONFIG;
-    }
-    if (now) {
+    const enum rho_status status =
+        settings ? list_image(&saved, image, size, &now) : RHO_ERROR_NULL;
+    if (status == RHO_OK) {
         *settings = *now;
     }
     return status;
@@ -116,84 +107,61 @@ static enum rho_status add_saved_windows(struct rho_node *node, const struct sav
     return RHO_OK;
 }
 
-static int has_same_parts(const struct saved *saved, const struct rho_snapshot_part *own,
-                          unsigned num_own)
-{
-    for (unsigned i = 0; i < num_own && num_own == saved->num_parts; i++) {
-        if (saved->parts[i].kind != own[i].kind || saved->parts[i].id != own[i].id) {
-            return 0;
-        }
-    }
-    return num_own == saved->num_parts;
-}
-
-/* True where the image's objects have the configurations of the node's. */
-static int has_same_configs(const struct saved *saved, const struct rho_snapshot_part *own)
+/*
+ * True where the image's objects have these configurations, and those of the node that no setting
+ * changes.
+ */
+static int has_same_configs(const struct saved *saved, const struct rho_node *node,
+                            const struct rho_node_config *config)
 {
     int is_same = 1;
     for (unsigned i = 0; i < saved->num_parts && is_same; i++) {
-        const uint8_t *one = object_of(saved, i), *other = own[i].object;
-        size_t at = 0, size = 0; /* of the configuration in the object */
-        if (own[i].kind == RHO_SNAPSHOT_TRACKER) {
-            at = offsetof(struct rho_tracker, config);
-            size = sizeof(struct rho_tracker_config);
-        } else if (own[i].kind == RHO_SNAPSHOT_INITIATOR) {
-            at = offsetof(struct rho_initiator, config);
-            size = sizeof(struct rho_initiator_config);
-        } else if (own[i].kind == RHO_SNAPSHOT_PASSIVE) {
-            at = offsetof(struct rho_passive, config);
-            size = sizeof(struct rho_passive_config);
-        } else if (own[i].kind == RHO_SNAPSHOT_SETTINGS) {
-            size = sizeof(struct rho_settings);
+        const struct rho_snapshot_part *part = &saved->parts[i];
+        if (part->kind == RHO_SNAPSHOT_TRACKER) {
+            const struct rho_tracker *tracker = object_of(saved, i);
+            is_same = node_equals(&tracker->config, &config->tracker, sizeof config->tracker);
+        } else if (RHO_SEARCHES && part->kind == RHO_SNAPSHOT_INITIATOR) {
+            const struct rho_initiator *window = object_of(saved, i);
+            is_same = node_equals(&window->config, &config->initiator, sizeof config->initiator);
+        } else if (RHO_NODE_HAS_PASSIVE && part->kind == RHO_SNAPSHOT_PASSIVE) {
+            const struct rho_passive *passive = object_of(saved, i);
+            is_same =
+                node_equals(&passive->config, &NODE_PASSIVE(node)->config, sizeof passive->config);
+        } else if (part->kind == RHO_SNAPSHOT_SETTINGS && part->id == SETTINGS_TOLD) {
+            is_same = node_equals(object_of(saved, i), &node->told, sizeof node->told);
         }
-        is_same = memcmp(one + at, other + at, size) == 0;
     }
     return is_same;
-}
-
-/* Loads an image whose operator's settings the node has. */
-static enum rho_status load_alike(struct rho_node *node, const struct saved *saved, size_t size)
-{
-    struct rho_snapshot_part own[RHO_NODE_PARTS];
-    enum rho_status status = add_saved_windows(node, saved);
-    const unsigned num_own = rho_node_list_parts(node, own);
-    if (status != RHO_OK) {
-        return status;
-    }
-    if (!has_same_parts(saved, own, num_own) || !has_same_configs(saved, own)) {
-        return RHO_ERROR_CONFIG;
-    }
-    return rho_snapshot_load(own, num_own, saved->image, size);
-}
-
-/* Settings are copied whole, so that equal ones have equal padding. */
-static int has_equal_bytes(const void *a, const void *b)
-{
-    return memcmp(a, b, sizeof(struct rho_settings)) == 0;
 }
 
 enum rho_status rho_node_load(struct rho_node *node, const void *image, size_t size)
 {
     struct saved saved;
-    struct rho_settings before;
+    struct rho_snapshot_part own[RHO_NODE_PARTS];
+    struct rho_node_config config;
     const struct rho_settings *now;
     enum rho_status status = node_check(node, image);
     if (status == RHO_OK) {
-        status = list_image(&saved, image, size);
+        status = list_image(&saved, image, size, &now);
+    }
+    if (status == RHO_OK) {
+        status = rho_node_settings_prepare(node, now, &config);
+    }
+    if (status == RHO_OK) {
+        status = add_saved_windows(node, &saved);
     }
     if (status != RHO_OK) {
         return status;
     }
-    before = node->settings;
-    now = saved_settings(&saved, SETTINGS_NOW);
-    if (!now || (!has_equal_bytes(now, &before) && rho_node_set_settings(node, now) != RHO_OK)) {
+    if (!has_same_configs(&saved, node, &config)) {
         return RHO_ERROR_CONFIG;
     }
-    status = load_alike(node, &saved, size);
+    const struct rho_settings before = node->settings;
+    status = rho_snapshot_load(own, rho_node_list_parts(node, own), image, size);
     if (status == RHO_OK) {
+        node->settings = before; /* from which the sensors' descriptions change */
+        rho_node_settings_adopt(node, now);
         node->is_restored = 1;
-    } else if (!has_equal_bytes(&node->settings, &before)) {
-        (void)!rho_node_set_settings(node, &before); /* they were taken before */
     }
-    return status;
+    return status == RHO_ERROR_COUNT ? RHO_ERROR_CONFIG : status; /* other parts */
 }

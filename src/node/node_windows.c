@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* node_windows: the initiation windows of radars, and which two radars share one (node.h). */
+#include "../wire/scan_internal.h"
 #include "node_parts.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
@@ -87,26 +88,15 @@ enum rho_status rho_node_windows_init(struct rho_node *node,
                : RHO_OK;
 }
 
-/* Interval between a sensor's scans; 0: not known yet. */
-static float scan_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
+static int are_alike(const struct rho_tracker_sensor *one_row,
+                     const struct rho_tracker_sensor *other_row, float turns_max)
 {
-    for (unsigned i = 0; i < tracker->num_rows; i++) {
-        if (tracker->sensors[i].sensor.sensor_id == sensor_id) {
-            return tracker->sensors[i].pace.interval_s;
-        }
-    }
-    return 0.0f;
-}
-
-static int are_alike(const struct rho_tracker *tracker, const struct rho_sensor *one,
-                     const struct rho_sensor *other, float turns_max)
-{
+    const struct rho_sensor *one = &one_row->sensor, *other = &other_row->sensor;
     const float x_m = one->x_m - other->x_m, y_m = one->y_m - other->y_m;
     const float apart_m = rho_sqrt(x_m * x_m + y_m * y_m);
     const float shorter_m = rho_smaller(one->range_max_m, other->range_max_m);
     const float longer_m = rho_larger(one->range_max_m, other->range_max_m);
-    const float one_s = scan_interval_s(tracker, one->sensor_id);
-    const float other_s = scan_interval_s(tracker, other->sensor_id);
+    const float one_s = one_row->pace.interval_s, other_s = other_row->pace.interval_s;
     const int is_known = one_s > 0.0f && other_s > 0.0f;
     return rho_angle_is_circle(one->sector_from_rad, one->sector_to_rad) &&
            rho_angle_is_circle(other->sector_from_rad, other->sector_to_rad) &&
@@ -114,28 +104,21 @@ static int are_alike(const struct rho_tracker *tracker, const struct rho_sensor 
            (!is_known || rho_larger(one_s, other_s) <= turns_max * rho_smaller(one_s, other_s));
 }
 
-/*
- * True where the sensor had a window of its own before: it has parted from a window that it shared.
- */
-static int had_own_window(const struct rho_node *node, int32_t sensor_id)
+/* Place of the sensor's window, or where it would be. */
+static unsigned place_of(const struct rho_node_window_list *windows, int32_t sensor_id)
 {
-    for (unsigned i = 0; i < node->windows.count && node->windows.has_sensor; i++) {
-        if (node->windows.sensor_id[i] == sensor_id) {
-            return 1;
-        }
+    unsigned place = windows->has_sensor ? 0 : windows->count;
+    while (place < windows->count && windows->sensor_id[place] != sensor_id) {
+        place++;
     }
-    return 0;
+    return place;
 }
 
 /* A stranger's messages would take half of a window. */
 static int may_share(const struct rho_node *node, int32_t sensor_id, int is_live)
 {
-    for (unsigned i = 0; is_live && i < node->assembler.num_known; i++) {
-        if (node->assembler.known[i].sensor.sensor_id == sensor_id) {
-            return 1;
-        }
-    }
-    return !is_live;
+    const struct rho_scan_assembler *assembler = &node->assembler;
+    return !is_live || rho_scan_sensor(assembler, sensor_id) != &assembler->config.other;
 }
 
 /* The sensor that names the window: the scan's, or one described before it that shares with it. */
@@ -148,17 +131,18 @@ static int32_t sensor_of_window(const struct rho_node *node, const struct rho_sc
         return scan->sensor_id;
     }
     for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        const struct rho_sensor *one = &tracker->sensors[i].sensor;
+        const struct rho_tracker_sensor *one = &tracker->sensors[i];
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
-            const struct rho_sensor *other = &tracker->sensors[j].sensor;
-            is_paired[i] =
-                !is_paired[j] && may_share(node, one->sensor_id, is_live) &&
-                may_share(node, other->sensor_id, is_live) &&
-                are_alike(tracker, one, other,
-                          had_own_window(node, other->sensor_id) ? TURNS_AGAIN_MAX : TURNS_MAX);
+            const struct rho_tracker_sensor *other = &tracker->sensors[j];
+            const int32_t other_id = other->sensor.sensor_id;
+            /* it had a window of its own before: it has parted from one that it shared */
+            const int is_again = place_of(&node->windows, other_id) < node->windows.count;
+            is_paired[i] = !is_paired[j] && may_share(node, one->sensor.sensor_id, is_live) &&
+                           may_share(node, other_id, is_live) &&
+                           are_alike(one, other, is_again ? TURNS_AGAIN_MAX : TURNS_MAX);
             is_paired[j] |= is_paired[i];
-            if (is_paired[i] && other->sensor_id == scan->sensor_id) {
-                return one->sensor_id;
+            if (is_paired[i] && other_id == scan->sensor_id) {
+                return one->sensor.sensor_id;
             }
         }
     }
@@ -201,25 +185,14 @@ static void copy_shared_scans(struct rho_node *node, struct rho_initiator *to, i
     }
 }
 
-/* Place of the sensor's window, or where it would be. The first exists before its sensor. */
-static unsigned place_of(struct rho_node *node, int32_t sensor_id)
-{
-    struct rho_node_window_list *windows = &node->windows;
-    unsigned place = 0;
-    if (!windows->has_sensor) {
-        windows->has_sensor = 1;
-        windows->sensor_id[0] = sensor_id;
-    }
-    while (place < windows->count && windows->sensor_id[place] != sensor_id) {
-        place++;
-    }
-    return place;
-}
-
 struct rho_initiator *rho_node_windows_add(struct rho_node *node, int32_t sensor_id)
 {
     struct rho_node_window_list *windows = &node->windows;
-    const unsigned place = place_of(node, sensor_id);
+    if (!windows->has_sensor) { /* the first window exists before its sensor */
+        windows->has_sensor = 1;
+        windows->sensor_id[0] = sensor_id;
+    }
+    const unsigned place = place_of(windows, sensor_id);
     if (place == windows->count) {
         if (place == windows->num_places ||
             rho_initiator_init(window_at(node, place), sizeof *NODE_INITIATOR(node),

@@ -167,25 +167,19 @@ static uint32_t layout_hash(void)
 
 /* Kinds */
 
-/* Size of the object of a snapshot kind; 0: there is no such kind in this build. */
+/* Sizes of the objects of the kinds; 0: there is no such kind in this build. */
+static const size_t sizes[] = {
+    [RHO_SNAPSHOT_TRACKER] = sizeof(struct rho_tracker),
+    [RHO_SNAPSHOT_INITIATOR] = sizeof(struct rho_initiator),
+    [RHO_SNAPSHOT_PASSIVE] = sizeof(struct rho_passive),
+    [RHO_SNAPSHOT_SETTINGS] = sizeof(struct rho_settings),
+    [RHO_SNAPSHOT_CLUTTER_MAP] = RHO_MAX_ECHOES > 0 ? sizeof(struct rho_clutter_map) : 0,
+    [RHO_SNAPSHOT_REFLECTORS] = RHO_MAX_REFLECTORS > 0 ? sizeof(struct rho_reflector_learning) : 0,
+};
+
 static size_t size_of_kind(uint32_t kind)
 {
-    switch (kind) {
-    case RHO_SNAPSHOT_TRACKER:
-        return sizeof(struct rho_tracker);
-    case RHO_SNAPSHOT_INITIATOR:
-        return sizeof(struct rho_initiator);
-    case RHO_SNAPSHOT_PASSIVE:
-        return sizeof(struct rho_passive);
-    case RHO_SNAPSHOT_SETTINGS:
-        return sizeof(struct rho_settings);
-    case RHO_SNAPSHOT_CLUTTER_MAP:
-        return RHO_MAX_ECHOES > 0 ? sizeof(struct rho_clutter_map) : 0;
-    case RHO_SNAPSHOT_REFLECTORS:
-        return RHO_MAX_REFLECTORS > 0 ? sizeof(struct rho_reflector_learning) : 0;
-    default:
-        return 0;
-    }
+    return kind < sizeof sizes / sizeof sizes[0] ? sizes[kind] : 0;
 }
 
 static int is_object_sound(uint32_t kind, const void *object)
@@ -417,42 +411,6 @@ size_t rho_snapshot_offset(const struct rho_snapshot_part *parts, unsigned num_p
     return offset;
 }
 
-enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigned num_parts,
-                                  const void *image, size_t size)
-{
-    const uint8_t *bytes = image;
-    enum rho_status status = check_parts(parts, num_parts);
-    if (status == RHO_OK) {
-        status = check_image(bytes, size);
-    }
-    if (status != RHO_OK) {
-        return status;
-    }
-    if (get_u32(bytes + NUM_PARTS_AT) != num_parts) {
-        return RHO_ERROR_COUNT;
-    }
-    for (unsigned i = 0; i < num_parts; i++) {
-        if (part_field(bytes, i, 0) != (uint32_t)parts[i].kind ||
-            part_field(bytes, i, 1) != (uint32_t)parts[i].id) {
-            return RHO_ERROR_COUNT;
-        }
-    }
-    /* all objects are checked before any part is changed */
-    for (int is_copy = 0; is_copy < 2; is_copy++) {
-        for (unsigned i = 0; i < num_parts; i++) {
-            const uint8_t *object = bytes + rho_snapshot_offset(parts, num_parts, i);
-            if (is_copy) {
-                memcpy(parts[i].object, object, parts[i].size);
-            } else if (!is_object_sound((uint32_t)parts[i].kind, object)) {
-                return RHO_ERROR_VALUE;
-            }
-        }
-    }
-    return RHO_OK;
-}
-
-/* Load in pieces */
-
 static size_t smaller_size(size_t a, size_t b)
 {
     return a < b ? a : b;
@@ -478,6 +436,38 @@ static enum rho_status compare_header(const struct rho_snapshot_loader *loader,
     }
     return RHO_OK;
 }
+
+enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigned num_parts,
+                                  const void *image, size_t size)
+{
+    const uint8_t *bytes = image;
+    enum rho_status status = check_parts(parts, num_parts);
+    if (status == RHO_OK) {
+        status = check_image(bytes, size);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    const struct rho_snapshot_loader whole = {.parts = parts, .num_parts = num_parts};
+    status = compare_header(&whole, bytes, rho_snapshot_offset(parts, num_parts, 0));
+    if (status != RHO_OK) {
+        return status;
+    }
+    /* all objects are checked before any part is changed */
+    for (int is_copy = 0; is_copy < 2; is_copy++) {
+        for (unsigned i = 0; i < num_parts; i++) {
+            const uint8_t *object = bytes + rho_snapshot_offset(parts, num_parts, i);
+            if (is_copy) {
+                memcpy(parts[i].object, object, parts[i].size);
+            } else if (!is_object_sound((uint32_t)parts[i].kind, object)) {
+                return RHO_ERROR_VALUE;
+            }
+        }
+    }
+    return RHO_OK;
+}
+
+/* Load in pieces */
 
 /* Copies the bytes of a piece of an image that belong to objects. */
 static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *bytes, size_t size)

@@ -43,7 +43,6 @@ enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t si
         return status;
     }
     memset(&starts->result, 0, sizeof starts->result);
-    memset(&starts->work, 0, sizeof starts->work);
     starts->has_searched = starts->num_scans = 0;
     starts->config = kept;
     starts->magic = STARTS_MAGIC;
@@ -140,22 +139,19 @@ static void start_from_line(struct rho_paper_starts *starts, struct rho_tracker 
 {
     const struct rho_hough_track *line = &peak->line;
     struct rho_window *window = &starts->window;
-    struct rho_tracker_counters *counters = &tracker->counters;
+    uint32_t *initiated = &tracker->counters.plots_initiated;
     struct rho_candidate candidate;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     peak->track_id = 0;
     if (!line->has_velocity || find_plots_of_line(starts, line, &candidate) < scans_min ||
         !is_in_newest_scan(candidate.mask, window->num_scans)) {
-        starts->work.short_lines = rho_count(starts->work.short_lines, 1);
         return;
     }
     const unsigned num = rho_step_candidate_plots(window, &candidate, plots);
     if (rho_tracker_start_track(tracker, plots, num, 0, report) != RHO_OK) {
-        starts->work.refused = rho_count(starts->work.refused, 1);
         return;
     }
     peak->track_id = newest_track_id(tracker);
-    starts->work.started = rho_count(starts->work.started, 1);
     /* its plots start no other track */
     for (unsigned m = 0; m < window->num_scans; m++) {
         if ((unsigned)candidate.mask >> m & 1u) {
@@ -164,7 +160,7 @@ static void start_from_line(struct rho_paper_starts *starts, struct rho_tracker 
             scan->num_unused--;
         }
     }
-    counters->plots_initiated = rho_count(counters->plots_initiated, candidate.hits);
+    *initiated = rho_count(*initiated, candidate.hits);
 }
 
 enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rho_tracker *tracker,
@@ -176,7 +172,6 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
     if (starts->magic != STARTS_MAGIC || !rho_tracker_is_ready(tracker) || !tracker->has_time) {
         return RHO_ERROR_STATE;
     }
-    memset(&starts->work, 0, sizeof starts->work);
     starts->has_searched = 0;
     if (report->time_us != tracker->time_us ||
         !rho_window_accepts(&starts->window, scan->time_us)) {
@@ -216,7 +211,6 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
     const struct rho_hough_points points = rho_paper_starts_points(starts);
     status =
         rho_hough_find(&starts->hough, &points, starts->peaks, RHO_PAPER_PEAKS, &starts->result);
-    starts->work.peaks = starts->result.num_peaks;
     for (uint32_t i = 0; status == RHO_OK && i < starts->result.num_peaks; i++) {
         status = rho_hough_track(&starts->hough, &points, starts->peaks[i].theta_cell,
                                  starts->peaks[i].rho_cell, 0.0f, &starts->lines[i].line);

@@ -375,27 +375,16 @@ int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, u
     return 1;
 }
 
-/* True where the tracker has the walls that the last step gave it. */
-static int has_tracker_these_walls(const struct rho_reflector_learning *learning,
-                                   const struct rho_tracker *tracker)
+/* Lists the walls that the tracker was told, and behind them learned ones; returns their number. */
+static unsigned list_walls(const struct rho_reflector_learning *learning,
+                           const struct rho_tracker *tracker, struct rho_reflector *walls)
 {
-    const unsigned all = (unsigned)learning->num_told + learning->num_used;
     unsigned count = learning->num_told;
-    struct rho_reflector a;
-    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count < all; i++) {
-        if (!rho_reflector_learning_wall(learning, i, &a)) {
-            continue;
-        }
-        const struct rho_reflector *b = &tracker->reflectors[count];
-        if (count >= tracker->num_reflectors || a.from_x_m < b->from_x_m ||
-            a.from_x_m > b->from_x_m || a.from_y_m < b->from_y_m || a.from_y_m > b->from_y_m ||
-            a.to_x_m < b->to_x_m || a.to_x_m > b->to_x_m || a.to_y_m < b->to_y_m ||
-            a.to_y_m > b->to_y_m) {
-            return 0;
-        }
-        count++;
+    memcpy(walls, tracker->reflectors, count * sizeof walls[0]);
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count != RHO_MAX_REFLECTORS; i++) {
+        count += rho_reflector_learning_wall(learning, i, &walls[count]) != 0;
     }
-    return count == all && tracker->num_reflectors == all;
+    return count;
 }
 
 enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learning,
@@ -418,8 +407,12 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     if (report->time_us != scan->time_us || report->num_tracks > RHO_MAX_TRACKS) {
         return RHO_ERROR_VALUE;
     }
-    if (!has_tracker_these_walls(learning, tracker)) {
-        /* the caller has told the tracker other walls */
+    struct rho_reflector walls[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
+    unsigned count = list_walls(learning, tracker, walls);
+    if (count != (unsigned)learning->num_told + learning->num_used ||
+        count != tracker->num_reflectors ||
+        memcmp(walls, tracker->reflectors, count * sizeof walls[0]) != 0) {
+        /* not the walls that the last step gave the tracker: the caller has told it others */
         learning->num_told = tracker->num_reflectors;
         learning->num_used = 0;
     }
@@ -467,13 +460,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     if (!has_walls && num_used == 0) {
         return RHO_OK;
     }
-    /* gives the tracker the walls that it was told, and behind them the learned ones */
-    struct rho_reflector walls[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
-    unsigned count = learning->num_told;
-    memcpy(walls, tracker->reflectors, count * sizeof walls[0]);
-    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count != RHO_MAX_REFLECTORS; i++) {
-        count += rho_reflector_learning_wall(learning, i, &walls[count]) != 0;
-    }
+    count = list_walls(learning, tracker, walls);
     learning->num_used = (uint16_t)(count - learning->num_told);
     return rho_tracker_set_reflectors(tracker, walls, count);
 }

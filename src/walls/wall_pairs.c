@@ -10,23 +10,14 @@
 #include "wall_line.h"
 
 /*
- * The line half way between two tracks that may be a target and its image: the wall, if they are.
- */
-struct mirror_line {
-    float x_m, y_m, cos_along, sin_along;
-    float variance_m2, slope_variance; /* of the line's place across it; of its direction */
-    /* place where the line of sight to the image crosses the line */
-    float crossing_x_m, crossing_y_m;
-    float sigma_m; /* sigma of the target's place */
-};
-
-/*
  * True where two tracks may be a target and its image: beside each other, equally fast along the
  * line whose direction their velocities give, sensor and target on one side of it and the image on
- * the other. Fills the line half way between the two.
+ * the other. Fills the line half way between the two, which is the wall if they are, and the place
+ * where the line of sight to the image crosses it.
  */
 static int may_be_image_pair(const struct rho_sensor *sensor, const struct rho_track_report *target,
-                             const struct rho_track_report *image, struct mirror_line *mirror)
+                             const struct rho_track_report *image,
+                             struct rho_learned_reflector *line, float crossing_m[2])
 {
     const float *t = target->state, *g = image->state;
     const float dx_m = g[RHO_X] - t[RHO_X], dy_m = g[RHO_Y] - t[RHO_Y];
@@ -52,24 +43,28 @@ static int may_be_image_pair(const struct rho_sensor *sensor, const struct rho_t
         off_m * off_m / along_m2 + off_mps * off_mps / along_mps2 > PAIR_CHI2) {
         return 0;
     }
-    mirror->x_m = 0.5f * (t[RHO_X] + g[RHO_X]);
-    mirror->y_m = 0.5f * (t[RHO_Y] + g[RHO_Y]);
-    mirror->cos_along = c;
-    mirror->sin_along = s;
-    mirror->variance_m2 = 0.25f * (variance_along(target->covariance, RHO_X, -s, c) +
-                                   variance_along(image->covariance, RHO_X, -s, c));
-    mirror->slope_variance = turned;
-    mirror->sigma_m = target->sigma_m;
+    memset(line, 0, sizeof *line);
+    line->x_m = 0.5f * (t[RHO_X] + g[RHO_X]);
+    line->y_m = 0.5f * (t[RHO_Y] + g[RHO_Y]);
+    line->cos_along = c;
+    line->sin_along = s;
+    line->variance[0] = 0.25f * (variance_along(target->covariance, RHO_X, -s, c) +
+                                 variance_along(image->covariance, RHO_X, -s, c));
+    line->variance[2] = turned;
+    line->pairs = 1.0f;
+    line->sigma_m = target->sigma_m;
+    line->is_taken = 1;
     const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
-    const float sensor_m = (y_m - mirror->y_m) * c - (x_m - mirror->x_m) * s;
-    const float target_m = (t[RHO_Y] - mirror->y_m) * c - (t[RHO_X] - mirror->x_m) * s;
-    const float image_m = (g[RHO_Y] - mirror->y_m) * c - (g[RHO_X] - mirror->x_m) * s;
+    float along_m;
+    const float sensor_m = off_line_m(line, x_m, y_m, &along_m);
+    const float target_m = off_line_m(line, t[RHO_X], t[RHO_Y], &along_m);
+    const float image_m = off_line_m(line, g[RHO_X], g[RHO_Y], &along_m);
     if (!(sensor_m * target_m > 0.0f) || !(sensor_m * image_m < 0.0f)) {
         return 0;
     }
     const float part = sensor_m / (sensor_m - image_m);
-    mirror->crossing_x_m = x_m + part * (g[RHO_X] - x_m);
-    mirror->crossing_y_m = y_m + part * (g[RHO_Y] - y_m);
+    crossing_m[0] = x_m + part * (g[RHO_X] - x_m);
+    crossing_m[1] = y_m + part * (g[RHO_Y] - y_m);
     return 1;
 }
 
@@ -78,34 +73,34 @@ static int may_be_image_pair(const struct rho_sensor *sensor, const struct rho_t
  * direction.
  */
 static int does_pair_fit_line(const struct rho_learned_reflector *line,
-                              const struct mirror_line *mirror)
+                              const struct rho_learned_reflector *pair)
 {
     float along_m;
-    const float off_m = off_line_m(line, mirror->x_m, mirror->y_m, &along_m);
-    const float limit_m2 = line_variance_at(line, along_m) + mirror->variance_m2;
+    const float off_m = off_line_m(line, pair->x_m, pair->y_m, &along_m);
+    const float limit_m2 = line_variance_at(line, along_m) + pair->variance[0];
     /* tracks may move either way along the line: the sign of the cosine does not matter */
-    const float cosine = mirror->cos_along * line->cos_along + mirror->sin_along * line->sin_along;
-    const float sine = mirror->sin_along * line->cos_along - mirror->cos_along * line->sin_along;
+    const float cosine = pair->cos_along * line->cos_along + pair->sin_along * line->sin_along;
+    const float sine = pair->sin_along * line->cos_along - pair->cos_along * line->sin_along;
     const float turned = cosine > 0.0f ? sine - line->slope : -sine - line->slope;
     return off_m * off_m <= ERROR_SIGMAS * ERROR_SIGMAS * limit_m2 &&
-           turned * turned <=
-               ERROR_SIGMAS * ERROR_SIGMAS * (mirror->slope_variance + line->variance[2]);
+           turned * turned <= ERROR_SIGMAS * ERROR_SIGMAS * (pair->variance[2] + line->variance[2]);
 }
 
 /*
  * Refines the learned line on which a pair of tracks lies. Where there is none, the pair takes a
  * count off the unused line with the fewest pairs, and replaces that line once its count is spent.
  */
-static void learn_line(struct rho_reflector_learning *learning, const struct mirror_line *mirror)
+static void learn_line(struct rho_reflector_learning *learning,
+                       const struct rho_learned_reflector *pair, const float crossing_m[2])
 {
     struct rho_learned_reflector *least = 0;
     float along_m, across_m;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         struct rho_learned_reflector *line = &learning->lines[i];
-        if (line->is_taken && does_pair_fit_line(line, mirror)) {
-            to_line_frame(line, mirror->x_m, mirror->y_m, &along_m, &across_m);
-            refine_line(line, along_m, across_m, (float)ALIKE_LOOKS * mirror->variance_m2);
-            to_line_frame(line, mirror->crossing_x_m, mirror->crossing_y_m, &along_m, &across_m);
+        if (line->is_taken && does_pair_fit_line(line, pair)) {
+            to_line_frame(line, pair->x_m, pair->y_m, &along_m, &across_m);
+            refine_line(line, along_m, across_m, (float)ALIKE_LOOKS * pair->variance[0]);
+            to_line_frame(line, crossing_m[0], crossing_m[1], &along_m, &across_m);
             lengthen_line_to(line, along_m);
             line->pairs += 1.0f;
             return;
@@ -119,17 +114,8 @@ static void learn_line(struct rho_reflector_learning *learning, const struct mir
     }
     least->pairs -= 1.0f;
     if (least->pairs < 0.0f) {
-        memset(least, 0, sizeof *least);
-        least->x_m = mirror->x_m;
-        least->y_m = mirror->y_m;
-        least->cos_along = mirror->cos_along;
-        least->sin_along = mirror->sin_along;
-        least->variance[0] = mirror->variance_m2;
-        least->variance[2] = mirror->slope_variance;
-        least->pairs = 1.0f;
-        least->sigma_m = mirror->sigma_m;
-        least->is_taken = 1;
-        to_line_frame(least, mirror->crossing_x_m, mirror->crossing_y_m, &least->from_m, &across_m);
+        memcpy(least, pair, sizeof *least); /* with its padding, which a snapshot has, too */
+        to_line_frame(least, crossing_m[0], crossing_m[1], &least->from_m, &across_m);
         least->to_m = least->from_m;
     }
 }
@@ -139,15 +125,17 @@ void rho_reflector_learning_pairs(struct rho_reflector_learning *learning,
                                   const struct rho_report *report)
 {
     const uint32_t num_tracks = report->num_tracks, all = num_tracks * num_tracks;
-    struct mirror_line mirror;
+    struct rho_learned_reflector pair_line;
+    float crossing_m[2];
     for (uint32_t i = 0; i < PAIRS_MAX && i < all; i++) {
         const uint32_t pair = learning->next_pair < all ? learning->next_pair : 0;
         const struct rho_track_report *target = &report->tracks[pair / num_tracks],
                                       *image = &report->tracks[pair % num_tracks];
         learning->next_pair = pair + 1u;
         if (target != image && may_have_image(target, scan) && image->plot >= 0 &&
-            image->hits >= IMAGE_HITS && may_be_image_pair(sensor, target, image, &mirror)) {
-            learn_line(learning, &mirror);
+            image->hits >= IMAGE_HITS &&
+            may_be_image_pair(sensor, target, image, &pair_line, crossing_m)) {
+            learn_line(learning, &pair_line, crossing_m);
         }
     }
 }

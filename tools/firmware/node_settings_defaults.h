@@ -47,8 +47,11 @@
 #endif
 
 /*
- * Fills in the node's settings, and the configurations of its parts with them. Sensors that are not
- * in known_radars.h, and the search for tracks in bearings, have the library's defaults.
+ * Fills in motion of targets, range and work of the node's settings, whose other fields are the
+ * library's defaults, and the configurations of its parts with them. The library's defaults, not
+ * the settings, hold for sensors that are not in known_radars.h and for the search for tracks in
+ * bearings; the papers' search has the settings' range. Interval and sigmas above are those of
+ * known_radars.h and of the tools that make scans for a node.
  */
 static inline void node_settings(struct rho_settings *settings, struct rho_node_config *config)
 {

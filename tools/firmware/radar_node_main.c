@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * radar_node_main: the radar node's main loop: receives scans over LCM, publishes tracks. To make
- * your own node: its radars are in known_radars.h, the tracker's settings in start_node(), the
- * hardware in board/.
+ * your own node: its radars are in known_radars.h, the tracker's settings in
+ * node_settings_defaults.h and nodes/, the hardware in board/.
  */
 #include "board/board.h"
 #include "known_radars.h"

@@ -21,6 +21,7 @@
 
 struct heard {
     unsigned lists, tracks; /* tracks in the last list */
+    struct rho_message_setting_answer answer;
     struct rho_message_status status;
     struct rho_message_work work;
 };
@@ -38,6 +39,8 @@ static void keep_sent_message(void *context, const char *channel, const uint8_t 
     } else if (strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
         assert_int_equal(rho_message_status_decode(data, size, &heard->status), RHO_OK);
         assert_int_equal(rho_message_status_validate(&heard->status, NULL), RHO_OK);
+    } else if (strcmp(channel, RHO_MESSAGE_SETTING_ANSWER_CHANNEL) == 0) {
+        assert_int_equal(rho_message_setting_answer_decode(data, size, &heard->answer), RHO_OK);
     } else if (strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0) {
         assert_int_equal(rho_message_work_decode(data, size, &heard->work), RHO_OK);
         assert_int_equal(rho_message_work_validate(&heard->work, NULL), RHO_OK);
@@ -259,6 +262,47 @@ static void work_and_unprinted_reports_are_sent_apart_from_status(void **state)
     node_core_close(live.core);
 }
 
+static void take_setting(struct live *live, int16_t field, float value, int32_t k)
+{
+    const struct rho_message_setting setting = {.number = k, .field = field, .value = value};
+    uint8_t buffer[RHO_MESSAGE_SETTING_MAX_SIZE];
+    size_t size;
+
+    assert_int_equal(rho_message_setting_encode(&setting, buffer, sizeof buffer, &size), RHO_OK);
+    node_core_take_message(live->core, RHO_MESSAGE_SETTING_CHANNEL, buffer, size,
+                           START_US + k * SECOND_US);
+}
+
+/*
+ * A sensor's own least range equals the setting, which two settings of one step change with the
+ * largest range: the node alone would take both.
+ */
+static void settings_that_parameters_refuse_are_taken_back(void **state)
+{
+    struct live live;
+    const struct node_core_events events = {.context = &live.heard, .send = keep_sent_message};
+
+    (void)state;
+    live = (struct live){.core = NULL};
+    parameters_set_defaults(&live.parameters);
+    parameters_set_assignment(&live.parameters, "range_min_m=40000");
+    parameters_set_assignment(&live.parameters, "sensor.7.range_min_m=40000");
+    live.core = node_core_open(&live.parameters, 1, &events);
+    node_core_allow_commands(live.core);
+    take_setting(&live, RHO_MESSAGE_SETTING_RANGE_MIN_M, 10.0f, 0);
+    take_setting(&live, RHO_MESSAGE_SETTING_RANGE_MAX_M, 30000.0f, 0);
+    take_polar_plot(&live, 1, 0.0f, 1);
+    take_polar_plot(&live, 1, 0.0f, 2);
+    assert_int_equal(live.heard.answer.field, RHO_MESSAGE_SETTING_RANGE_MAX_M);
+    assert_int_equal(live.heard.answer.status, RHO_OK);
+    take_setting(&live, RHO_MESSAGE_SETTING_RANGE_MAX_M, 30000.0f, 3);
+    take_polar_plot(&live, 1, 0.0f, 3);
+    take_polar_plot(&live, 1, 0.0f, 4);
+    assert_int_equal(live.heard.answer.number, 3);
+    assert_int_equal(live.heard.answer.status, RHO_ERROR_CONFIG);
+    node_core_close(live.core);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +311,7 @@ int main(void)
         cmocka_unit_test(radars_that_fell_silent_make_room),
         cmocka_unit_test(a_moved_passive_sensor_is_accepted_after_a_while),
         cmocka_unit_test(passive_sensors_that_moved_together_are_accepted),
+        cmocka_unit_test(settings_that_parameters_refuse_are_taken_back),
         cmocka_unit_test(the_status_message_tells_the_origin),
         cmocka_unit_test(work_and_unprinted_reports_are_sent_apart_from_status),
     };

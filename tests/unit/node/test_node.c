@@ -50,7 +50,13 @@ static void wrong_calls_are_refused(void **state)
     settings.v_max_mps = -1.0f;
     assert_int_equal(rho_node_init(&node, sizeof node, &settings), RHO_ERROR_CONFIG);
     assert_int_equal(rho_node_next(&node, 0), RHO_NODE_NOTHING);
+    settings.v_max_mps = 100.0f;
+    settings.scan_interval_s = 0.0f; /* of no part of its own */
+    assert_int_equal(rho_node_init(&node, sizeof node, &settings),
+                     RHO_MAX_COMMANDS > 0 ? RHO_ERROR_CONFIG : RHO_OK);
+    assert_null(rho_node_channel(NULL, 0));
     start_default_node();
+    assert_null(rho_node_channel(&node, 0));
     assert_int_equal(rho_node_step_scan(&node, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_node_step_frame(NULL, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_node_add_zone(&node, &zone),
@@ -67,6 +73,8 @@ static void configurations_that_no_part_takes_are_refused(void **state)
     config.passive_range_max_m = NAN;
     start_default_node();
     assert_int_equal(rho_node_configure_bearings(&node, &config), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_node_configure_bearings(&node, &config), RHO_ERROR_STATE);
+    start_default_node();
     assert_int_equal(rho_node_configure(&node, &config), RHO_ERROR_CONFIG);
     assert_int_equal(rho_node_configure(&node, &config), RHO_ERROR_STATE);
     config = default_config();
@@ -96,6 +104,34 @@ static void configurations_that_no_part_takes_are_refused(void **state)
     config.assembler.other.noise.sigma_rad = -1.0f;
     start_default_node();
     assert_int_equal(rho_node_configure(&node, &config), RHO_ERROR_CONFIG);
+}
+
+/* Frames that were taken before the passive search was refused do not stay. */
+static void a_node_with_refused_bearings_is_not_used(void **state)
+{
+    struct rho_node_config config = default_config();
+    const struct rho_scan scan = {.time_us = 0};
+
+    (void)state;
+    config.frames.tolerance_us /= 2;
+    config.passive.pd = -1.0f;
+    start_default_node();
+    assert_int_equal(rho_node_configure_bearings(&node, &config), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_node_step_scan(&node, &scan), RHO_ERROR_STATE);
+    assert_int_equal(rho_node_next(&node, 0), RHO_NODE_NOTHING);
+}
+
+static void refused_configurations_leave_tracker_and_windows(void **state)
+{
+    struct rho_node_config config = default_config();
+
+    (void)state;
+    start_default_node();
+    config.tracker.v_max_mps = 100.0f;
+    config.initiator.scans = 1;
+    assert_int_equal(rho_node_reconfigure(&node, &config), RHO_ERROR_CONFIG);
+    assert_true(node.tracker.config.v_max_mps > 100.0f);
+    assert_int_not_equal(rho_node_window(&node, 0)->config.scans, 1);
 }
 
 /* What the settings say of a radar holds for each sensor that is not described. */
@@ -154,6 +190,22 @@ static void descriptions_follow_the_settings_that_they_equal(void **state)
     assert_true(node.settings.range_max_m >= 60000.0f);
 }
 
+/* Sensors that are not described, too, need a range that is above their least one. */
+static void settings_that_contradict_other_sensors_are_refused(void **state)
+{
+    struct rho_node_config config = default_config();
+    struct rho_settings settings;
+
+    (void)state;
+    config.assembler.other.sensor.range_min_m = 50e3f;
+    start_node(&config);
+    settings = node.settings;
+    settings.range_max_m = 40e3f;
+    assert_int_equal(rho_node_set_settings(&node, &settings), RHO_ERROR_CONFIG);
+    assert_true(node.assembler.config.other.sensor.range_max_m > 50e3f);
+    assert_true(node.settings.range_max_m > 50e3f);
+}
+
 /*
  * ---- steps and messages -----------------------------------------------------------------------
  */
@@ -208,6 +260,9 @@ static void scans_without_messages_take_the_same_chain(void **state)
         scan.time_us = k * 10 * SECOND_US;
         assert_int_equal(rho_node_step_scan(&node, &scan), RHO_OK);
         assert_true(node.report.time_us == scan.time_us);
+        assert_int_equal(rho_node_num_messages(&node), 2);
+        assert_string_equal(rho_node_channel(&node, 1), RHO_MESSAGE_PEAK_LIST_CHANNEL);
+        assert_null(rho_node_channel(&node, 2));
     }
     assert_int_equal(node.counters.steps, 5);
     assert_int_equal(rho_node_window(&node, 0)->window.num_scans, 5);
@@ -215,6 +270,14 @@ static void scans_without_messages_take_the_same_chain(void **state)
     assert_int_not_equal(rho_node_step_scan(&node, &scan), RHO_OK);
     assert_int_equal(node.counters.scans_refused, 1);
     assert_int_equal(node.counters.steps, 5);
+    assert_int_equal(rho_node_num_messages(&node), 0);
+    scan.time_us = 50 * SECOND_US;
+    assert_int_equal(rho_node_step_scan(&node, &scan), RHO_OK);
+    const struct rho_frame frame = {.time_us = 60 * SECOND_US};
+    assert_int_equal(rho_node_step_frame(&node, &frame), RHO_OK);
+    assert_int_equal(rho_node_num_messages(&node), 2);
+    assert_int_equal(rho_node_next(&node, 0), RHO_NODE_NOTHING);
+    assert_int_equal(rho_node_num_messages(&node), 0);
 }
 
 static void the_status_holds_mean_and_longest_step_time(void **state)
@@ -549,13 +612,37 @@ static void the_papers_methods_start_tracks(void **state)
         node.report.fates_total[RHO_FATE_CLAIMED] + node.report.fates_total[RHO_FATE_HELD], 1);
 }
 
+/* A step whose plots the papers' method refuses was made: its report is published. */
+static void a_refusal_by_the_papers_method_leaves_the_step(void **state)
+{
+    struct rho_node_config config = default_config();
+
+    (void)state;
+    config.options.is_plots_by_paper = RHO_PAPERS != 0;
+    start_node(&config);
+#if RHO_PAPERS
+    node.paper_starts.magic = 0;
+#endif
+    wanted = RHO_MESSAGE_TRACK_LIST_CHANNEL;
+    send_scan(1, 0, now_us);
+    now_us += SECOND_US;
+    send_scan(1, 1, now_us);
+    run_until(INT64_MAX);
+    assert_string_equal(done, "SS");
+    assert_int_equal(num_wanted, 2);
+    assert_int_equal(node.counters.steps, 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(configurations_that_no_part_takes_are_refused),
+        cmocka_unit_test(a_node_with_refused_bearings_is_not_used),
+        cmocka_unit_test(refused_configurations_leave_tracker_and_windows),
         cmocka_unit_test(settings_reach_tracker_initiator_and_sensors),
         cmocka_unit_test(descriptions_follow_the_settings_that_they_equal),
+        cmocka_unit_test(settings_that_contradict_other_sensors_are_refused),
         cmocka_unit_test(scans_are_stepped_and_published),
         cmocka_unit_test(scans_without_messages_take_the_same_chain),
         cmocka_unit_test(the_status_holds_mean_and_longest_step_time),
@@ -571,6 +658,7 @@ int main(void)
         cmocka_unit_test(passive_sensors_have_the_range_of_the_initiation),
         cmocka_unit_test(passive_sensors_far_apart_are_refused),
         cmocka_unit_test(the_papers_methods_start_tracks),
+        cmocka_unit_test(a_refusal_by_the_papers_method_leaves_the_step),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

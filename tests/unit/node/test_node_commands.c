@@ -21,18 +21,35 @@ static void start_node_of_operator(int takes_commands)
     wanted = RHO_MESSAGE_COMMAND_ANSWER_CHANNEL;
 }
 
-/* Excludes a square, of which number is the side in metres. */
-static void send_command(int32_t number)
+/* Encodes the exclusion of a square, of which number is the side in metres. */
+static size_t encode_command(int32_t number, uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE])
 {
     const struct rho_message_command command = {.number = number,
                                                 .action = RHO_MESSAGE_COMMAND_EXCLUDE,
                                                 .x_max_m = (float)number,
                                                 .y_max_m = (float)number};
-    uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE];
     size_t size;
 
-    assert_int_equal(rho_message_command_encode(&command, bytes, sizeof bytes, &size), RHO_OK);
-    take_message(RHO_MESSAGE_COMMAND_CHANNEL, bytes, size);
+    assert_int_equal(
+        rho_message_command_encode(&command, bytes, RHO_MESSAGE_COMMAND_MAX_SIZE, &size), RHO_OK);
+    return size;
+}
+
+static void send_command(int32_t number)
+{
+    uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE];
+
+    take_message(RHO_MESSAGE_COMMAND_CHANNEL, bytes, encode_command(number, bytes));
+}
+
+/* Gives the node a command, and lets it do nothing. */
+static void leave_command(int32_t number)
+{
+    uint8_t bytes[RHO_MESSAGE_COMMAND_MAX_SIZE];
+    const size_t size = encode_command(number, bytes);
+
+    assert_int_equal(rho_node_take(&node, RHO_MESSAGE_COMMAND_CHANNEL, bytes, size, now_us),
+                     RHO_OK);
 }
 
 static void send_setting(int16_t field, float value)
@@ -127,6 +144,62 @@ static void a_restart_refuses_waiting_commands(void **state)
     assert_int_equal(node.tracker.num_excluded, 0);
 }
 
+/* A node that begins anew runs no command of before, and publishes no answer. */
+static void a_configuration_drops_waiting_commands_and_answers(void **state)
+{
+    struct rho_node_config config = default_config();
+
+    (void)state;
+    config.options.takes_commands = 1;
+    start_node_of_operator(1);
+    for (int32_t number = 1; number <= RHO_MAX_COMMANDS + 1; number++) {
+        send_command(number);
+    }
+    assert_int_equal(rho_node_num_messages(&node), 0);
+    num_wanted = 0;
+    assert_int_equal(rho_node_configure(&node, &config), RHO_OK);
+    now_us += SECOND_US;
+    send_scan(1, 1, now_us);
+    assert_int_equal(node.tracker.num_excluded, 0);
+    assert_int_equal(num_wanted, 0);
+}
+
+/* Answers come with the step that ran the commands, whoever calls it. */
+static void a_step_without_messages_answers_commands(void **state)
+{
+    const struct rho_scan scan = {.time_us = INT64_C(1001) * SECOND_US, .sensor_id = 1};
+
+    (void)state;
+    start_node_of_operator(1);
+    send_command(50);
+    assert_int_equal(rho_node_step_scan(&node, &scan), RHO_OK);
+    assert_string_equal(rho_node_channel(&node, 0), RHO_MESSAGE_COMMAND_ANSWER_CHANNEL);
+    keep_wanted_messages();
+    assert_int_equal(num_wanted, 1);
+    assert_int_equal(last_answer().number, 50);
+}
+
+/* Answers that nobody publishes push out older ones: those of the last step are no longer all. */
+static void answers_beyond_the_list_are_not_published_for_others(void **state)
+{
+    (void)state;
+    start_node_of_operator(1);
+    for (int32_t number = 1; number <= RHO_MAX_COMMANDS + 1; number++) {
+        send_command(number);
+    }
+    for (int32_t number = 200; number < 200 + RHO_MAX_COMMANDS; number++) {
+        leave_command(number);
+    }
+    assert_int_equal(rho_node_next(&node, now_us), RHO_NODE_ANSWER);
+    assert_int_equal(rho_node_num_messages(&node), RHO_MAX_COMMANDS);
+    for (int32_t number = 300; number < 303; number++) { /* one finds room, two push out */
+        leave_command(number);
+    }
+    assert_int_equal(rho_node_num_messages(&node), RHO_MAX_COMMANDS - 2);
+    keep_wanted_messages();
+    assert_int_equal(last_answer().number, 200 + RHO_MAX_COMMANDS - 1);
+}
+
 static void bad_and_unwanted_commands_are_counted(void **state)
 {
     const uint8_t bytes[3] = {1, 2, 3};
@@ -212,6 +285,9 @@ int main(void)
         cmocka_unit_test(commands_beyond_the_queue_are_refused_at_once),
         cmocka_unit_test(commands_that_wait_too_long_are_refused),
         cmocka_unit_test(a_restart_refuses_waiting_commands),
+        cmocka_unit_test(a_configuration_drops_waiting_commands_and_answers),
+        cmocka_unit_test(a_step_without_messages_answers_commands),
+        cmocka_unit_test(answers_beyond_the_list_are_not_published_for_others),
         cmocka_unit_test(bad_and_unwanted_commands_are_counted),
         cmocka_unit_test(a_setting_changes_tracker_and_initiators),
         cmocka_unit_test(a_setting_that_contradicts_a_sensor_is_refused),

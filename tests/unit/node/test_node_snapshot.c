@@ -135,23 +135,54 @@ static void snapshots_of_other_nodes_are_refused(void **state)
     assert_int_equal(rho_node_list_parts(&node, NULL), 0);
 }
 
-/* Settings that were changed while the saved node ran are the loaded one's. */
-static void changed_settings_are_loaded(void **state)
+/* Saves a node whose settings were changed while it ran. */
+static void save_changed_node(void)
 {
     const struct rho_node_config config = default_config();
     struct rho_settings settings;
 
-    (void)state;
     start_with_storage(&config);
     settings = node.settings;
     settings.v_max_mps = 250.0f;
+    settings.pd = 0.7f;
     assert_int_equal(rho_node_set_settings(&node, &settings), RHO_OK);
     send_scan(1, 0, now_us);
     save_node();
+}
+
+/* Tracker, windows and descriptions have the loaded settings. */
+static void changed_settings_are_loaded(void **state)
+{
+    const struct rho_node_config config = default_config();
+
+    (void)state;
+    save_changed_node();
     start_with_storage(&config);
     assert_int_equal(rho_node_load(&node, image, image_size), RHO_OK);
     assert_true(node.settings.v_max_mps <= 250.0f && node.told.v_max_mps > 250.0f);
     assert_true(node.tracker.config.v_max_mps <= 250.0f);
+    assert_true(rho_node_window(&node, 0)->config.v_max_mps <= 250.0f);
+    assert_true(node.assembler.config.other.sensor.pd <= 0.7f);
+}
+
+/* A refused image changes neither configurations beside the settings nor descriptions. */
+static void a_refused_snapshot_of_changed_settings_changes_nothing(void **state)
+{
+    struct rho_node_config config = default_config();
+    struct rho_scan_assembler_sensor known = config.assembler.other;
+
+    (void)state;
+    save_changed_node();
+    config.tracker.coast_scans_max++;
+    start_with_storage(&config);
+    known.sensor.sensor_id = 1;
+    known.sensor.pd = 0.7f;
+    assert_int_equal(rho_scan_assembler_set_sensor(&node.assembler, &known), RHO_OK);
+    node.told.v_min_mps = 1.0f;
+    assert_int_equal(rho_node_load(&node, image, image_size), RHO_ERROR_CONFIG);
+    assert_true(node.settings.pd >= 0.9f);
+    assert_true(node.assembler.known[0].sensor.pd <= 0.7f);
+    assert_int_equal(node.tracker.config.coast_scans_max, config.tracker.coast_scans_max);
 }
 
 static int allocate_storage(void **state)
@@ -176,6 +207,7 @@ int main(void)
         cmocka_unit_test(scans_older_than_the_snapshot_restart_the_node),
         cmocka_unit_test(snapshots_of_other_nodes_are_refused),
         cmocka_unit_test(changed_settings_are_loaded),
+        cmocka_unit_test(a_refused_snapshot_of_changed_settings_changes_nothing),
     };
 
     return cmocka_run_group_tests(tests, allocate_storage, free_memory);

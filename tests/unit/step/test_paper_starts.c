@@ -166,8 +166,8 @@ static void lines_without_a_new_plot_start_nothing(void **state)
         assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
         assert_int_equal(report.num_tracks, 0);
     }
-    assert_int_equal(starts.work.peaks, 1);
-    assert_int_equal(starts.work.short_lines, 1);
+    assert_int_equal(starts.result.num_peaks, 1);
+    assert_int_equal(starts.lines[0].track_id, 0);
     begin_with_method(RHO_HOUGH_IHT);
     lines.scans_min = 3;
     assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &lines), RHO_OK);
@@ -194,8 +194,7 @@ static void a_line_takes_plots_within_three_sigmas_of_its_motion(void **state)
             assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
             assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
         }
-        assert_true(starts.work.peaks > 0);
-        assert_int_equal(starts.work.started, !i);
+        assert_true(starts.result.num_peaks > 0);
         assert_int_equal(report.num_tracks, !i);
     }
 }

@@ -2,6 +2,7 @@
 #include "live/node_core.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -104,15 +105,21 @@ static void send_show_messages(struct node_core *core, enum rho_node_due done)
 
 /*
  * Takes settings that an operator has changed into the parameters, and applies what follows from
- * these beside the settings themselves.
+ * these beside the settings themselves. Where a sensor's own range in the parameters conflicts with
+ * several settings of one step, the parameters stay, and the node goes back to them.
  */
 static void adopt_changed_settings(struct node_core *core)
 {
     const struct rho_settings settings = core->pipeline.node->settings;
+    const bool is_adopted = parameters_adopt_settings(core->parameters, &settings);
 
-    if (parameters_adopt_settings(core->parameters, &settings)) {
-        pipeline_reconfigure(&core->pipeline, core->parameters);
+    pipeline_reconfigure(&core->pipeline, core->parameters);
+    if (is_adopted) {
         core->pipeline.node->settings = settings;
+    } else {
+        fputs("rhotrack: settings of an operator conflict with a sensor's range; they are taken "
+              "back\n",
+              stderr);
     }
 }
 
