@@ -20,8 +20,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define NONE UINT32_MAX
-
 #define CELL uint8_t
 #define NAME(f) f##_narrow
 #include "coarse_votes.h"
@@ -34,7 +32,7 @@
 #undef NAME
 
 struct interval {
-    /* rows of theta, and the points left: the first num_points of room.few */
+    /* rows of theta, and the points left: the first num_points of few */
     unsigned first, num_rows, num_points;
 };
 
@@ -42,9 +40,7 @@ struct prune {
     struct rho_accumulator_pass *pass;
     /* circle around all points, its radius in rho cells */
     float centre_x_m, centre_y_m, radius_cells;
-    unsigned next_row; /* first row of the next interval */
-    /* row that is filled, but not searched for peaks yet; NONE: there is none */
-    unsigned last_filled;
+    unsigned next_row;     /* first row of the next interval */
     unsigned num_rows;     /* rows of the next interval; 1: pruning does not pay */
     unsigned num_unpruned; /* rows to search without pruning when it does not pay */
     unsigned work;         /* cost of the current interval with pruning */
@@ -79,9 +75,9 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
 {
     struct rho_accumulator_pass *pass = prune->pass;
     struct rho_accumulator *accumulator = pass->accumulator;
-    float *x_m = accumulator->room.few.x_m, *y_m = accumulator->room.few.y_m;
-    int32_t *bins = accumulator->room.few.bins;
-    uint16_t *bits = accumulator->room.few.bits;
+    float *x_m = accumulator->few.x_m, *y_m = accumulator->few.y_m;
+    int32_t *bins = accumulator->few.bins;
+    uint16_t *bits = accumulator->few.bits;
     unsigned n = of->num_points, num_bins = BINS_MIN, least = pass->list.min_votes;
     if (n < least || (!pass->counts_points && pass->points->num_scans < least)) {
         of->num_points = 0;
@@ -118,48 +114,12 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
     }
 }
 
-/*
- * Lists the peaks of the row filled last, once the row after it is filled: rows that are skipped
- * are cleared, and after the last row comes the first one, reversed.
- */
-static void search_last_filled(struct prune *prune, unsigned next)
-{
-    struct rho_accumulator_pass *pass = prune->pass;
-    unsigned row = prune->last_filled, slot = (row + 1u) % 3u;
-    if (row == NONE) {
-        return;
-    }
-    if (row + 1u == pass->accumulator->theta_cells) {
-        rho_accumulator_fill_row(pass, slot, 0, 1);
-    } else if (next != row + 1u) {
-        rho_accumulator_clear_row(pass, slot);
-    }
-    rho_accumulator_find_row_peaks(pass, row);
-}
-
-/* Fills each row of an interval with its points, and lists the peaks of the rows before. */
+/* Lets the points of an interval vote in each of its rows. */
 static void search_rows(struct prune *prune, struct interval of)
 {
-    struct rho_accumulator_pass *pass = prune->pass;
     prune->work += of.num_rows * (WORK_FIXED + WORK_POINT * of.num_points);
     for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
-        if (prune->last_filled == NONE || prune->last_filled + 1u != row) {
-            /* a gap: the row above has no votes, or for row 0 those of the last row, reversed */
-            search_last_filled(prune, row);
-            prune->last_filled = NONE;
-            if (row == 0) {
-                rho_accumulator_fill_row(pass, 2, pass->accumulator->theta_cells - 1u, 1);
-            } else {
-                rho_accumulator_clear_row(pass, (row - 1u) % 3u);
-            }
-        }
-        if (of.num_points == pass->num_points) {
-            rho_accumulator_fill_row(pass, row % 3u, row, 0);
-        } else {
-            rho_accumulator_fill_kept(pass, row % 3u, row, of.num_points);
-        }
-        search_last_filled(prune, row);
-        prune->last_filled = row;
+        rho_accumulator_vote_few(prune->pass, row, of.num_points);
     }
 }
 
@@ -211,8 +171,7 @@ static void search_next_interval(struct prune *prune, unsigned rows_left)
     }
     prune->work = 0;
     unsigned num_kept = search_interval(prune, of);
-    /* a row of all points costs half a unit a point less than one of kept points */
-    if (prune->work > num_rows * (WORK_FIXED + n * 3u / 2u)) {
+    if (prune->work > num_rows * (WORK_FIXED + WORK_POINT * n)) {
         prune->num_rows = 1;
         return;
     }
@@ -226,37 +185,43 @@ static void search_next_interval(struct prune *prune, unsigned rows_left)
     }
 }
 
-void rho_accumulator_search_pruned(struct rho_accumulator_pass *pass)
+/* Searches interval by interval; all points lie within rho_max_m. */
+static void search_intervals(struct prune *prune)
 {
-    const struct rho_accumulator_points *points = pass->points;
-    struct rho_accumulator *accumulator = pass->accumulator;
-    struct prune prune = {
-        .pass = pass, .last_filled = NONE, .num_rows = ROWS_START, .num_unpruned = ROWS_UNPRUNED};
-    unsigned n = pass->num_points, num_rows = accumulator->theta_cells;
-    if (n == 0) {
-        return;
-    }
-    /* each interval reorders this copy of the points */
-    for (unsigned scan = 0, i = 0; scan < points->num_scans; scan++) {
-        for (; i < points->scan_end[scan]; i++) {
-            accumulator->room.few.x_m[i] = points->x_m[i];
-            accumulator->room.few.y_m[i] = points->y_m[i];
-            accumulator->room.few.bits[i] = (uint16_t)(pass->counts_points ? 0u : 1u << scan);
-        }
-    }
+    const struct rho_accumulator_points *points = prune->pass->points;
+    const struct rho_accumulator *accumulator = prune->pass->accumulator;
+    unsigned n = prune->pass->num_points;
     float farthest2 = 0.0f;
-    prune.centre_x_m = middle_of(points->x_m, n);
-    prune.centre_y_m = middle_of(points->y_m, n);
+    prune->centre_x_m = middle_of(points->x_m, n);
+    prune->centre_y_m = middle_of(points->y_m, n);
     for (unsigned i = 0; i < n; i++) {
-        float x_m = points->x_m[i] - prune.centre_x_m, y_m = points->y_m[i] - prune.centre_y_m;
+        float x_m = points->x_m[i] - prune->centre_x_m, y_m = points->y_m[i] - prune->centre_y_m;
         float range2 = x_m * x_m + y_m * y_m;
         farthest2 = range2 > farthest2 ? range2 : farthest2;
     }
-    prune.radius_cells = rho_sqrt(farthest2) * accumulator->cells_per_m;
-    while (prune.next_row < num_rows) {
-        search_next_interval(&prune, num_rows - prune.next_row);
+    prune->radius_cells = rho_sqrt(farthest2) * accumulator->cells_per_m;
+    while (prune->next_row < accumulator->theta_cells) {
+        search_next_interval(prune, accumulator->theta_cells - prune->next_row);
     }
-    search_last_filled(&prune, NONE);
-    /* all points are within rho_max_m where rows are pruned */
-    pass->votes = n * num_rows;
+}
+
+void rho_accumulator_search_few(struct rho_accumulator_pass *pass, int is_pruned)
+{
+    const struct rho_accumulator_points *points = pass->points;
+    struct rho_accumulator *accumulator = pass->accumulator;
+    struct prune prune = {.pass = pass, .num_rows = ROWS_START, .num_unpruned = ROWS_UNPRUNED};
+    /* pruning reorders this copy of the points */
+    for (unsigned scan = 0, i = 0; scan < points->num_scans; scan++) {
+        for (; i < points->scan_end[scan]; i++) {
+            accumulator->few.x_m[i] = points->x_m[i];
+            accumulator->few.y_m[i] = points->y_m[i];
+            accumulator->few.bits[i] = (uint16_t)(1u << scan);
+        }
+    }
+    memset(accumulator->row, 0, sizeof accumulator->row);
+    if (is_pruned) {
+        search_intervals(&prune);
+    } else {
+        search_rows(&prune, (struct interval){0, accumulator->theta_cells, pass->num_points});
+    }
 }

@@ -53,12 +53,12 @@ static unsigned NAME(list_kept_points)(struct rho_accumulator_pass *pass, unsign
                                        unsigned num_bins)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
-    CELL *votes = (CELL *)accumulator->room.few.votes;
-    CELL *are_enough = (CELL *)accumulator->room.few.are_enough;
-    int32_t *bins = accumulator->room.few.bins;
+    CELL *votes = (CELL *)accumulator->few.votes;
+    CELL *are_enough = (CELL *)accumulator->few.are_enough;
+    int32_t *bins = accumulator->few.bins;
     CELL least = (CELL)pass->list.min_votes;
     memset(votes, 0, num_bins * sizeof *votes);
-    NAME(vote_in_bins)(pass, votes, bins, accumulator->room.few.bits, n);
+    NAME(vote_in_bins)(pass, votes, bins, accumulator->few.bits, n);
     votes[num_bins] = votes[0];
     votes[num_bins + 1u] = votes[1];
     if (!(pass->counts_points

@@ -18,19 +18,6 @@
  */
 #define PRUNED_VOTES 3u
 
-/* accumulator_rows.c */
-
-/*
- * Blocks that are tested together where peaks are rare. Half or twice: more calls, or more blocks
- * tested twice; the same peaks.
- */
-#define BLOCKS 4u
-/*
- * A scan with fewer cells a point than this votes via the scratch row, as stores to one cell would
- * wait for each other. Half or twice: slower rows, the same votes.
- */
-#define CROWDED 4
-
 /* accumulator_pruning.c; all change the time of a search, none its peaks */
 
 /* Rows of theta in the first interval. Half or twice: one more interval until the length fits. */
