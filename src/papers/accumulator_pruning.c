@@ -20,16 +20,78 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define CELL uint8_t
-#define NAME(f) f##_narrow
-#include "coarse_votes.h"
-#undef CELL
-#undef NAME
-#define CELL uint16_t
-#define NAME(f) f##_wide
-#include "coarse_votes.h"
-#undef CELL
-#undef NAME
+/*
+ * Votes of n points in coarse bins of rho, which are a ring: rho values that differ by its whole
+ * length share a bin.
+ */
+static void vote_in_bins(const struct rho_accumulator_pass *pass, uint16_t *restrict votes,
+                         const int32_t *restrict bins, const uint16_t *restrict bits, unsigned n)
+{
+    if (pass->counts_points) {
+        for (unsigned i = 0; i < n; i++) {
+            votes[bins[i]]++;
+        }
+        return;
+    }
+    for (unsigned i = 0; i < n; i++) {
+        votes[bins[i]] |= bits[i];
+    }
+}
+
+/* Sets are_enough[b] where bins b .. b + 2 have min_votes points. Returns whether any is set. */
+static int mark_triples_by_points(const uint16_t *restrict votes, uint16_t *restrict are_enough,
+                                  unsigned num_bins, unsigned min_votes)
+{
+    uint16_t any = 0;
+    for (unsigned i = 0; i < num_bins; i++) {
+        are_enough[i] = (unsigned)(votes[i] + votes[i + 1u] + votes[i + 2u]) >= min_votes;
+        any |= are_enough[i];
+    }
+    return any;
+}
+
+/* The same by scans. */
+static int mark_triples_by_scans(const uint16_t *restrict votes, uint16_t *restrict are_enough,
+                                 unsigned num_bins, unsigned min_votes)
+{
+    uint16_t any = 0;
+    for (unsigned i = 0; i < num_bins; i++) {
+        uint16_t v = (uint16_t)(votes[i] | votes[i + 1u] | votes[i + 2u]);
+        v = (uint16_t)(v - ((v >> 1) & 0x5555u));
+        v = (uint16_t)((v & 0x3333u) + ((v >> 2) & 0x3333u));
+        v = (uint16_t)((v + (v >> 4)) & 0x0f0fu);
+        v = (uint16_t)((v + (v >> 8)) & 0x1fu);
+        are_enough[i] = v >= (uint16_t)min_votes;
+        any |= are_enough[i];
+    }
+    return any;
+}
+
+/* Lists in bins[] the points that may reach min_votes, by their bins. Returns their number. */
+static unsigned list_kept_points(struct rho_accumulator_pass *pass, unsigned n, unsigned num_bins)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    uint16_t *votes = accumulator->few.votes, *are_enough = accumulator->few.are_enough;
+    int32_t *bins = accumulator->few.bins;
+    unsigned least = pass->list.min_votes, num_kept = 0;
+    memset(votes, 0, num_bins * sizeof *votes);
+    vote_in_bins(pass, votes, bins, accumulator->few.bits, n);
+    votes[num_bins] = votes[0];
+    votes[num_bins + 1u] = votes[1];
+    if (!(pass->counts_points ? mark_triples_by_points(votes, are_enough + 2, num_bins, least)
+                              : mark_triples_by_scans(votes, are_enough + 2, num_bins, least))) {
+        return 0;
+    }
+    are_enough[0] = are_enough[num_bins];
+    are_enough[1] = are_enough[num_bins + 1u];
+    /* a point is kept where one of its three bins is marked */
+    for (unsigned i = 0; i < n; i++) {
+        const uint16_t *at = are_enough + bins[i];
+        bins[num_kept] = (int32_t)i;
+        num_kept += (at[0] | at[1] | at[2]) != 0;
+    }
+    return num_kept;
+}
 
 struct interval {
     /* rows of theta, and the points left: the first num_points of few */
@@ -98,8 +160,7 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
                                                    prune->centre_x_m * by_x -
                                                    prune->centre_y_m * by_y};
     find_ring_bins(x_m, y_m, n, place, num_bins, bins);
-    of->num_points = pass->is_narrow ? list_kept_points_narrow(pass, n, num_bins)
-                                     : list_kept_points_wide(pass, n, num_bins);
+    of->num_points = list_kept_points(pass, n, num_bins);
     /* the points left, listed in bins[], change places with those at the front */
     for (unsigned to = 0; of->num_points < n && to < of->num_points; to++) {
         unsigned from = (unsigned)bins[to];

@@ -21,7 +21,10 @@ static void note_votes(struct rho_accumulator_pass *pass, unsigned cell, unsigne
                                                       .mask = pass->counts_points ? 0u : mask});
 }
 
-/* Calls a function of row_votes.h for the width of the pass' cells. */
+/*
+ * Calls a function of row_votes.h for the width of the pass' cells: narrow ones of 8 bits hold 8
+ * scans, or 255 points.
+ */
 #define BY_WIDTH(f, ...) (pass->is_narrow ? f##_narrow(__VA_ARGS__) : f##_wide(__VA_ARGS__))
 
 #define CELL uint8_t
@@ -56,9 +59,27 @@ static void project_points(struct rho_accumulator_pass *pass, const float *x_m, 
 
 void rho_accumulator_vote_few(struct rho_accumulator_pass *pass, unsigned theta_cell, unsigned n)
 {
+    struct rho_accumulator *accumulator = pass->accumulator;
+    uint16_t *row = accumulator->row, *reached = accumulator->few.reached;
+    const int32_t *cells = accumulator->cells;
+    unsigned num_reached = 0;
     begin_row(pass, theta_cell);
-    project_points(pass, pass->accumulator->few.x_m, pass->accumulator->few.y_m, n);
-    BY_WIDTH(vote_few, pass, n);
+    project_points(pass, accumulator->few.x_m, accumulator->few.y_m, n);
+    for (unsigned i = 0; i < n; i++) {
+        const uint16_t before = row[cells[i]];
+        const uint16_t after =
+            (uint16_t)(pass->counts_points ? before + 1u : before | accumulator->few.bits[i]);
+        row[cells[i]] = after;
+        reached[num_reached] = (uint16_t)cells[i];
+        num_reached += after != before && votes_of_cell_wide(pass, after) == pass->list.min_votes;
+    }
+    row[0] = row[accumulator->rho_cells + 1u] = 0;
+    for (unsigned i = 0; i < num_reached; i++) {
+        offer_cell_wide(pass, reached[i]);
+    }
+    for (unsigned i = 0; i < n; i++) {
+        row[cells[i]] = 0;
+    }
 }
 
 void rho_accumulator_vote_all(struct rho_accumulator_pass *pass, unsigned theta_cell)

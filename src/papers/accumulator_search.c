@@ -89,10 +89,8 @@ static void search(struct rho_accumulator_pass *pass)
     if (n == 0) {
         return; /* the arrays of points may be NULL */
     }
-    /* a narrow cell of 8 bits holds the bits of 8 scans, or a count of points to 255 */
     pass->num_points = n;
     pass->counts_points = accumulator->config.votes == RHO_VOTES_POINTS;
-    pass->is_narrow = pass->counts_points ? n <= UINT8_MAX : pass->points->num_scans <= 8u;
     pass->has_outside = may_be_outside(pass);
     if (n <= RHO_ACCUMULATOR_SPARSE_MAX &&
         n <= accumulator->rho_cells / SPARSE_CELLS + SPARSE_POINTS) {
@@ -100,6 +98,7 @@ static void search(struct rho_accumulator_pass *pass)
                                              pass->list.min_votes >= PRUNED_VOTES);
         return;
     }
+    pass->is_narrow = pass->counts_points ? n <= UINT8_MAX : pass->points->num_scans <= 8u;
     for (unsigned theta_cell = 0; theta_cell < accumulator->theta_cells; theta_cell++) {
         rho_accumulator_vote_all(pass, theta_cell);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * row_votes: votes and peaks in a row of cells. A template, included twice, with CELL an unsigned
+ * row_votes: votes and peaks in a row with many points. A template, included twice, with CELL an unsigned
  * type and NAME(f) adding its suffix to f. gcc -O3 vectorises these hot loops as they are written.
  */
 
@@ -51,33 +51,6 @@ static void NAME(offer_cell)(struct rho_accumulator_pass *pass, unsigned cell)
     const unsigned votes = NAME(votes_of_cell)(pass, value);
     if (votes >= pass->list.min_votes) {
         note_votes(pass, cell, votes, value);
-    }
-}
-
-/*
- * Votes of the first n points of the scratch, in their cells; lists the peaks among the cells that
- * reach min_votes, and clears the row again.
- */
-static void NAME(vote_few)(struct rho_accumulator_pass *pass, unsigned n)
-{
-    struct rho_accumulator *accumulator = pass->accumulator;
-    CELL *row = (CELL *)accumulator->row;
-    const int32_t *cells = accumulator->cells;
-    uint16_t *reached = accumulator->few.reached;
-    unsigned num_reached = 0;
-    for (unsigned i = 0; i < n; i++) {
-        const CELL before = row[(uint32_t)cells[i]], bit = (CELL)accumulator->few.bits[i];
-        const CELL after = (CELL)(pass->counts_points ? before + 1u : before | bit);
-        row[(uint32_t)cells[i]] = after;
-        reached[num_reached] = (uint16_t)cells[i];
-        num_reached += after != before && NAME(votes_of_cell)(pass, after) == pass->list.min_votes;
-    }
-    row[0] = row[accumulator->rho_cells + 1u] = 0;
-    for (unsigned i = 0; i < num_reached; i++) {
-        NAME(offer_cell)(pass, reached[i]);
-    }
-    for (unsigned i = 0; i < n; i++) {
-        row[(uint32_t)cells[i]] = 0;
     }
 }
 
