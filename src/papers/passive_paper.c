@@ -96,11 +96,32 @@ void rho_passive_paper_list_sensors(const struct rho_batch *batch,
     search->near = search->num_sensors > 2 ? 1 : 0;
 }
 
-int rho_passive_paper_set_cells(struct rho_passive_paper_search *search)
+int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
+                           struct rho_passive_paper_pair *pair)
 {
-    struct rho_passive_paper *paper = search->paper;
-    search->rows = (int)rho_passive_paper_theta_rows(&paper->config);
-    search->columns = RHO_PAPER_RHO_CELLS;
+    struct rho_passive_paper_search search = {.num_sensors = 0};
+    if (!paper || !pair || paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
+        return 0;
+    }
+    rho_passive_paper_list_sensors(&paper->batch, &search);
+    for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
+        const unsigned behind = search.num_sensors - 1u - i;
+        if (number < behind) {
+            *pair =
+                (struct rho_passive_paper_pair){search.sensors[i], search.sensors[i + 1u + number]};
+            return 1;
+        }
+        number -= behind;
+    }
+    return 0;
+}
+
+int rho_passive_paper_begin(struct rho_passive_paper *paper,
+                            struct rho_passive_paper_search *search)
+{
+    *search = (struct rho_passive_paper_search){
+        .paper = paper, .rows = (int)rho_passive_paper_theta_rows(&paper->config)};
+    rho_passive_paper_list_sensors(&paper->batch, search);
     paper->votes_min = paper->config.votes_min > 0
                            ? paper->config.votes_min
                            : (uint16_t)((4u * paper->batch.num_scans + 4u) / 5u);
@@ -115,12 +136,11 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    struct rho_passive_paper_search search = {.paper = paper};
+    struct rho_passive_paper_search search;
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
     rho_batch_compact(&paper->batch);
-    rho_passive_paper_list_sensors(&paper->batch, &search);
-    if (!rho_passive_paper_set_cells(&search)) {
+    if (!rho_passive_paper_begin(paper, &search)) {
         return RHO_OK;
     }
     const struct rho_batch *batch = &paper->batch;
