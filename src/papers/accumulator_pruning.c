@@ -21,39 +21,14 @@
 #include "rhotrack/types.h"
 
 /*
- * Votes of n points in coarse bins of rho, which are a ring: rho values that differ by its whole
- * length share a bin.
+ * Sets are_enough[b] where bins b .. b + 2 have min_votes, points or scans. Returns whether any is
+ * set.
  */
-static void vote_in_bins(const struct rho_accumulator_pass *pass, uint16_t *restrict votes,
-                         const int32_t *restrict bins, const uint16_t *restrict bits, unsigned n)
+static int mark_triples(const struct rho_accumulator_pass *pass, const uint16_t *restrict votes,
+                        uint16_t *restrict are_enough, unsigned num_bins)
 {
-    if (pass->counts_points) {
-        for (unsigned i = 0; i < n; i++) {
-            votes[bins[i]]++;
-        }
-        return;
-    }
-    for (unsigned i = 0; i < n; i++) {
-        votes[bins[i]] |= bits[i];
-    }
-}
-
-/* Sets are_enough[b] where bins b .. b + 2 have min_votes points. Returns whether any is set. */
-static int mark_triples_by_points(const uint16_t *restrict votes, uint16_t *restrict are_enough,
-                                  unsigned num_bins, unsigned min_votes)
-{
-    uint16_t any = 0;
-    for (unsigned i = 0; i < num_bins; i++) {
-        are_enough[i] = (unsigned)(votes[i] + votes[i + 1u] + votes[i + 2u]) >= min_votes;
-        any |= are_enough[i];
-    }
-    return any;
-}
-
-/* The same by scans. */
-static int mark_triples_by_scans(const uint16_t *restrict votes, uint16_t *restrict are_enough,
-                                 unsigned num_bins, unsigned min_votes)
-{
+    const int counts_points = pass->counts_points;
+    const unsigned min_votes = pass->list.min_votes;
     uint16_t any = 0;
     for (unsigned i = 0; i < num_bins; i++) {
         uint16_t v = (uint16_t)(votes[i] | votes[i + 1u] | votes[i + 2u]);
@@ -61,25 +36,32 @@ static int mark_triples_by_scans(const uint16_t *restrict votes, uint16_t *restr
         v = (uint16_t)((v & 0x3333u) + ((v >> 2) & 0x3333u));
         v = (uint16_t)((v + (v >> 4)) & 0x0f0fu);
         v = (uint16_t)((v + (v >> 8)) & 0x1fu);
+        v = counts_points ? (uint16_t)(votes[i] + votes[i + 1u] + votes[i + 2u]) : v;
         are_enough[i] = v >= (uint16_t)min_votes;
         any |= are_enough[i];
     }
     return any;
 }
 
-/* Lists in bins[] the points that may reach min_votes, by their bins. Returns their number. */
+/*
+ * Lists in bins[] the points that may reach min_votes, by their coarse bins of rho. These are a
+ * ring: rho values that differ by its whole length share a bin. Returns the number of points.
+ */
 static unsigned list_kept_points(struct rho_accumulator_pass *pass, unsigned n, unsigned num_bins)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
+    const uint16_t *bits = accumulator->few.bits;
     uint16_t *votes = accumulator->few.votes, *are_enough = accumulator->few.are_enough;
     int32_t *bins = accumulator->few.bins;
-    unsigned least = pass->list.min_votes, num_kept = 0;
+    unsigned num_kept = 0;
     memset(votes, 0, num_bins * sizeof *votes);
-    vote_in_bins(pass, votes, bins, accumulator->few.bits, n);
+    for (unsigned i = 0; i < n; i++) {
+        uint16_t *bin = &votes[bins[i]];
+        *bin = (uint16_t)(pass->counts_points ? *bin + 1u : *bin | bits[i]);
+    }
     votes[num_bins] = votes[0];
     votes[num_bins + 1u] = votes[1];
-    if (!(pass->counts_points ? mark_triples_by_points(votes, are_enough + 2, num_bins, least)
-                              : mark_triples_by_scans(votes, are_enough + 2, num_bins, least))) {
+    if (!mark_triples(pass, votes, are_enough + 2, num_bins)) {
         return 0;
     }
     are_enough[0] = are_enough[num_bins];

@@ -4,19 +4,12 @@
  * type and NAME(f) adding its suffix to f. gcc -O3 vectorises these hot loops as they are written.
  */
 
-/* Votes of one scan: sets its bit in its points' cells; by fours, as stores are the limit. */
+/* Votes of one scan: sets its bit in its points' cells. */
 static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n,
                             unsigned scan)
 {
     const CELL bit = (CELL)(1u << scan);
-    unsigned i = 0;
-    for (; i + 4u <= n; i += 4u) {
-        row[(uint32_t)cells[i]] |= bit;
-        row[(uint32_t)cells[i + 1u]] |= bit;
-        row[(uint32_t)cells[i + 2u]] |= bit;
-        row[(uint32_t)cells[i + 3u]] |= bit;
-    }
-    for (; i < n; i++) {
+    for (unsigned i = 0; i < n; i++) {
         row[(uint32_t)cells[i]] |= bit;
     }
 }
