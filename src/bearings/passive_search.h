@@ -44,7 +44,7 @@ struct rho_passive_search {
     unsigned looks;      /* number of reports: pairs of scan and sensor */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
-    uint16_t theta_cells, rho_cells;
+    uint16_t theta_cells;
     float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
     /* largest number of votes of a cell in each row of theta */
     uint8_t most_votes[RHO_PASSIVE_THETA_CELLS];
