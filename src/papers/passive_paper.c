@@ -76,46 +76,6 @@ enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
     return status;
 }
 
-void rho_passive_paper_list_sensors(const struct rho_batch *batch,
-                                    struct rho_passive_paper_search *search)
-{
-    for (unsigned s = 0; s < batch->num_sensors; s++) {
-        unsigned looks = 0;
-        for (unsigned k = 0; k < batch->num_scans; k++) {
-            looks += batch->was_seen[k][s];
-        }
-        if (looks > 0) {
-            search->sensors[search->num_sensors++] = (uint8_t)s;
-        }
-    }
-    for (unsigned i = 0; i < search->num_sensors; i++) {
-        const struct rho_batch_sensor *sensor = &batch->sensors[search->sensors[i]];
-        search->middle_x_m += sensor->x_m / (float)search->num_sensors;
-        search->middle_y_m += sensor->y_m / (float)search->num_sensors;
-    }
-    search->near = search->num_sensors > 2 ? 1 : 0;
-}
-
-int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
-                           struct rho_passive_paper_pair *pair)
-{
-    struct rho_passive_paper_search search = {.num_sensors = 0};
-    if (!paper || !pair || paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
-        return 0;
-    }
-    rho_passive_paper_list_sensors(&paper->batch, &search);
-    for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
-        const unsigned behind = search.num_sensors - 1u - i;
-        if (number < behind) {
-            *pair =
-                (struct rho_passive_paper_pair){search.sensors[i], search.sensors[i + 1u + number]};
-            return 1;
-        }
-        number -= behind;
-    }
-    return 0;
-}
-
 int rho_passive_paper_begin(struct rho_passive_paper *paper,
                             struct rho_passive_paper_search *search)
 {

@@ -3,7 +3,7 @@
  * passive_paper_search: state of one search by the paper's passive Hough transform, and
  * the functions that its files share.
  *
- * - passive_paper_votes.c: crossings, votes in rows of theta, confirmation by all pairs
+ * - passive_paper_votes.c: pairs of sensors, crossings, votes, confirmation by all pairs
  * - passive_paper_lines.c: the choice of the lines, and the fits through their crossings
  * - passive_paper.c: configuration, frames, the sequence of steps of a search
  * - passive_paper_view.c: intermediate results of a search: ghost matrices, planes of votes

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * row_votes: votes and peaks in a row with many points. A template, included twice, with CELL an unsigned
- * type and NAME(f) adding its suffix to f. gcc -O3 vectorises these hot loops as they are written.
+ * row_votes: votes and peaks in a row with many points. A template, included twice, with CELL an
+ * unsigned type and NAME(f) adding its suffix to f. gcc -O3 vectorises these hot loops as they are
+ * written.
  */
 
 /* Votes of one scan: sets its bit in its points' cells. */

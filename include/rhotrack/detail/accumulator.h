@@ -158,9 +158,8 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_find_peaks(
     struct rho_accumulator_peak *peaks, uint32_t max_peaks, struct rho_accumulator_result *result);
 
 /*
- * Notes the votes of all points in a picture of the plane. Errors: as rho_accumulator_find_peaks, and
- * those of rho_votes_picture_init. Cost: theta cells times points, and rho cells where there are many.
- * Stack: 1.4 KB.
+ * Notes the votes of all points in a picture of the plane. Errors: as rho_accumulator_find_peaks,
+ * and those of rho_votes_picture_init. Cost: as there. Stack: 1.4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_plane(struct rho_accumulator *accumulator,
                                                      const struct rho_accumulator_points *points,
