@@ -5,13 +5,12 @@
  *
  *     rows  0 ...                64 ...               128 ...
  *           |--------------------|--------------------|------    (1)
- *           |---------|----------|                               (2)
- *                     |----|-----|
- *                          |r r r|                               (3)
+ *           |----|----|----|-----|                               (2)
+ *                     |r r r|                                    (3)
  *
- * (1) If no bin of rho has min_votes, all 64 rows are skipped. (2) Otherwise each half of the rows
- * is searched, with the points of those bins that have min_votes. (3) When few rows are left, the
- * remaining points vote in each row.
+ * (1) If no bin of rho has min_votes, all 64 rows are skipped. (2) Otherwise each quarter of the
+ * rows is searched, with the points of those bins that have min_votes. (3) When few rows are left,
+ * the remaining points vote in each row.
  */
 #include <string.h>
 
@@ -19,6 +18,9 @@
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
+
+#define LEVELS 5u /* of parts within the longest interval */
+#define INTERVAL_ROWS (PARTS * PARTS * PARTS * PARTS * PARTS)
 
 /*
  * Sets are_enough[b] where bins b .. b + 2 have min_votes, points or scans. Returns whether any is
@@ -84,10 +86,6 @@ struct prune {
     struct rho_accumulator_pass *pass;
     /* circle around all points, its radius in rho cells */
     float centre_x_m, centre_y_m, radius_cells;
-    unsigned next_row;     /* first row of the next interval */
-    unsigned num_rows;     /* rows of the next interval; 1: pruning does not pay */
-    unsigned num_unpruned; /* rows to search without pruning when it does not pay */
-    unsigned work;         /* cost of the current interval with pruning */
 };
 
 static float middle_of(const float *values, unsigned n)
@@ -158,93 +156,55 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
 }
 
 /* Lets the points of an interval vote in each of its rows. */
-static void search_rows(struct prune *prune, struct interval of)
+static void search_rows(struct rho_accumulator_pass *pass, struct interval of)
 {
-    prune->work += of.num_rows * (WORK_FIXED + WORK_POINT * of.num_points);
     for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
-        rho_accumulator_vote_few(prune->pass, row, of.num_points);
+        rho_accumulator_vote_few(pass, row, of.num_points);
     }
 }
 
-/* Searches an interval by halving, depth first. Returns the number of points that it keeps. */
-static unsigned search_interval(struct prune *prune, struct interval whole)
+/* Searches an interval by parts, depth first, as long as points are left. */
+static void search_interval(const struct prune *prune, struct interval whole)
 {
-    struct interval stack[HALVINGS + 2];
-    unsigned depth = 0, num_kept = 0;
+    struct interval stack[LEVELS * (PARTS - 1u) + 1u];
+    unsigned depth = 0;
     stack[depth++] = whole;
     while (depth > 0) {
         struct interval of = stack[--depth];
-        unsigned num_before = of.num_points, num_left = of.num_rows / 2u;
-        prune->work += WORK_FIXED + WORK_POINT * num_before;
         drop_hopeless_points(prune, &of);
-        num_kept = of.num_rows == whole.num_rows ? of.num_points : num_kept;
-        /* where most points are left, the halves save less than their bins cost */
-        int is_worth_halving = of.num_rows > ROWS_LEAST &&
-                               (of.num_rows > ROWS_BLUNT || 4u * of.num_points <= 3u * num_before);
-        if (of.num_points > 0 && is_worth_halving) {
-            stack[depth++] =
-                (struct interval){of.first + num_left, of.num_rows - num_left, of.num_points};
-            stack[depth++] = (struct interval){of.first, num_left, of.num_points};
+        if (of.num_points > 0 && of.num_rows <= ROWS_LEAST) {
+            search_rows(prune->pass, of);
         } else if (of.num_points > 0) {
-            search_rows(prune, of);
+            unsigned part = (of.num_rows + PARTS - 1u) / PARTS;
+            part = part > ROWS_LEAST ? part : ROWS_LEAST;
+            for (unsigned end = of.num_rows; end > 0;) {
+                unsigned num_rows = end % part ? end % part : part;
+                end -= num_rows;
+                stack[depth++] = (struct interval){of.first + end, num_rows, of.num_points};
+            }
         }
-    }
-    return num_kept;
-}
-
-/*
- * Searches the next interval of rows. Its length is doubled while nearly all points are dropped,
- * and halved if few are: at the best length an interval costs about as much as its halves. If an
- * interval cost more than its rows without pruning, or even ROWS_LEAST rows keep many points, all
- * points vote in the next rows before pruning is tried again.
- */
-static void search_next_interval(struct prune *prune, unsigned rows_left)
-{
-    unsigned n = prune->pass->num_points, num_rows = prune->num_rows;
-    int is_pruned = num_rows >= ROWS_LEAST;
-    num_rows = is_pruned ? num_rows : prune->num_unpruned;
-    num_rows = num_rows < rows_left ? num_rows : rows_left;
-    struct interval of = {prune->next_row, num_rows, n};
-    prune->next_row += num_rows;
-    if (!is_pruned) {
-        search_rows(prune, of);
-        prune->num_rows = ROWS_LEAST;
-        prune->num_unpruned += prune->num_unpruned < INTERVAL_ROWS_MAX ? prune->num_unpruned : 0u;
-        return;
-    }
-    prune->work = 0;
-    unsigned num_kept = search_interval(prune, of);
-    if (prune->work > num_rows * (WORK_FIXED + WORK_POINT * n)) {
-        prune->num_rows = 1;
-        return;
-    }
-    if (SHRINK_KEPT * num_kept > n) {
-        prune->num_rows /= 2u;
-        return;
-    }
-    prune->num_unpruned = ROWS_UNPRUNED;
-    if (GROW_KEPT * num_kept <= n && prune->num_rows < INTERVAL_ROWS_MAX) {
-        prune->num_rows *= 2u;
     }
 }
 
 /* Searches interval by interval; all points lie within rho_max_m. */
-static void search_intervals(struct prune *prune)
+static void search_intervals(struct rho_accumulator_pass *pass)
 {
-    const struct rho_accumulator_points *points = prune->pass->points;
-    const struct rho_accumulator *accumulator = prune->pass->accumulator;
-    unsigned n = prune->pass->num_points;
+    const struct rho_accumulator_points *points = pass->points;
+    const unsigned n = pass->num_points, num_rows = pass->accumulator->theta_cells;
+    struct prune prune = {.pass = pass,
+                          .centre_x_m = middle_of(points->x_m, n),
+                          .centre_y_m = middle_of(points->y_m, n)};
     float farthest2 = 0.0f;
-    prune->centre_x_m = middle_of(points->x_m, n);
-    prune->centre_y_m = middle_of(points->y_m, n);
     for (unsigned i = 0; i < n; i++) {
-        float x_m = points->x_m[i] - prune->centre_x_m, y_m = points->y_m[i] - prune->centre_y_m;
+        float x_m = points->x_m[i] - prune.centre_x_m, y_m = points->y_m[i] - prune.centre_y_m;
         float range2 = x_m * x_m + y_m * y_m;
         farthest2 = range2 > farthest2 ? range2 : farthest2;
     }
-    prune->radius_cells = rho_sqrt(farthest2) * accumulator->cells_per_m;
-    while (prune->next_row < accumulator->theta_cells) {
-        search_next_interval(prune, accumulator->theta_cells - prune->next_row);
+    prune.radius_cells = rho_sqrt(farthest2) * pass->accumulator->cells_per_m;
+    for (unsigned first = 0; first < num_rows; first += INTERVAL_ROWS) {
+        unsigned left = num_rows - first;
+        search_interval(&prune,
+                        (struct interval){first, left < INTERVAL_ROWS ? left : INTERVAL_ROWS, n});
     }
 }
 
@@ -252,7 +212,6 @@ void rho_accumulator_search_few(struct rho_accumulator_pass *pass, int is_pruned
 {
     const struct rho_accumulator_points *points = pass->points;
     struct rho_accumulator *accumulator = pass->accumulator;
-    struct prune prune = {.pass = pass, .num_rows = ROWS_START, .num_unpruned = ROWS_UNPRUNED};
     /* pruning reorders this copy of the points */
     for (unsigned scan = 0, i = 0; scan < points->num_scans; scan++) {
         for (; i < points->scan_end[scan]; i++) {
@@ -263,8 +222,8 @@ void rho_accumulator_search_few(struct rho_accumulator_pass *pass, int is_pruned
     }
     memset(accumulator->row, 0, sizeof accumulator->row);
     if (is_pruned) {
-        search_intervals(&prune);
+        search_intervals(pass);
     } else {
-        search_rows(&prune, (struct interval){0, accumulator->theta_cells, pass->num_points});
+        search_rows(pass, (struct interval){0, accumulator->theta_cells, pass->num_points});
     }
 }
