@@ -151,7 +151,7 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accu
  * (points, and the rho cells where there are more than RHO_ACCUMULATOR_SPARSE_MAX points), and
  * max_peaks' logarithm for each peak. With at most RHO_ACCUMULATOR_SPARSE_MAX points, all
  * within rho_max_m, and min_votes of 3 or more, rows that cannot have a peak are skipped: with few
- * points this saves up to 29/30 of the cost. Stack: 760 bytes.
+ * points this saves up to 29/30 of the cost. Stack: 660 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_find_peaks(
     struct rho_accumulator *accumulator, const struct rho_accumulator_points *points,
@@ -159,7 +159,7 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_find_peaks(
 
 /*
  * Notes the votes of all points in a picture of the plane. Errors: as rho_accumulator_find_peaks,
- * and those of rho_votes_picture_init. Cost: as there. Stack: 760 bytes.
+ * and those of rho_votes_picture_init. Cost: as there. Stack: 660 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_plane(struct rho_accumulator *accumulator,
                                                      const struct rho_accumulator_points *points,
