@@ -178,7 +178,7 @@ static void search_interval(const struct prune *prune, struct interval whole)
             unsigned part = (of.num_rows + PARTS - 1u) / PARTS;
             part = part > ROWS_LEAST ? part : ROWS_LEAST;
             for (unsigned end = of.num_rows; end > 0;) {
-                unsigned num_rows = end % part ? end % part : part;
+                unsigned rest = end % part, num_rows = rest > 0 ? rest : part;
                 end -= num_rows;
                 stack[depth++] = (struct interval){of.first + end, num_rows, of.num_points};
             }
