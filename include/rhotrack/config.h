@@ -341,12 +341,12 @@
 
 /* The papers' methods (hough.h, passive_paper.h, paper_starts.h, publish.h). */
 
-/* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
+/* Cells of rho in a row of the Hough accumulator. RAM: 2 bytes a cell. 64 .. 32704. */
 #ifndef RHO_MAX_RHO_CELLS
 #define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
 #endif
 
-/* Points whose cells the accumulator remembers. RAM: 18 or 32 bytes a point. 64 .. 4096. */
+/* Points whose cells the accumulator remembers. RAM: 20 bytes a point. 64 .. 4096. */
 #ifndef RHO_ACCUMULATOR_SPARSE_MAX
 #define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
 #endif
@@ -360,8 +360,8 @@
 #define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
 #endif
 
-/* Bytes behind a row, which is read by 64 cells and their margins, 80 in all. A multiple of 4. */
-#define RHO_ACCUMULATOR_PADDING 84
+/* Cells behind those of a row, which has guard cells at its ends and is read by 64 cells. */
+#define RHO_ACCUMULATOR_PADDING 66
 
 /* Cells with votes of the papers' methods. RAM: 8 bytes each. A power of two, 256 .. 4194304. */
 #ifndef RHO_MAX_HOUGH_CELLS
@@ -583,9 +583,7 @@
      2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + RHO_MAX_PLOTS + 410)
 #define RHO_RAM_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define RHO_RAM_ACCUMULATOR_BYTES                                                                  \
-    (6 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024 +                              \
-     RHO_RAM_LARGER(2 * RHO_MAX_RHO_CELLS,                                                         \
-                    14 * RHO_ACCUMULATOR_SPARSE_MAX + 4 * RHO_ACCUMULATOR_BINS))
+    (2 * RHO_MAX_RHO_CELLS + 20 * RHO_ACCUMULATOR_SPARSE_MAX + 4 * RHO_ACCUMULATOR_BINS + 256)
 /* Hough transform: the larger of the accumulator, and of vote cells with pairs of plots or a row */
 #define RHO_RAM_HOUGH_BYTES                                                                        \
     (RHO_RAM_LARGER(RHO_RAM_ACCUMULATOR_BYTES,                                                     \

@@ -226,7 +226,7 @@ RHO_MUST_CHECK enum rho_status rho_hough_init(struct rho_hough *hough, size_t ob
  * scan, a place not finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s);
  * nothing but *hough's scratch is changed.
  * Cost: HT as rho_accumulator_find_peaks. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2
- * additions a vote. Then n log n of the cells found. Stack: 1 KB, HT 1.9 KB, NHT_C 2.8 KB.
+ * additions a vote. Then n log n of the cells found. Stack: 2.8 KB, HT 1 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_hough_find(struct rho_hough *hough,
                                               const struct rho_hough_points *points,

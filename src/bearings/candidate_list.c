@@ -35,11 +35,10 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES])
 {
     struct rho_passive_candidate candidate;
-    struct rho_passive_score score = rho_passive_score_nearest(search, state_m, 1, candidate.claim);
-    candidate.score_nat = score.score_nat;
-    candidate.hits = score.hits;
+    float chi2;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
-    if (!score.is_track) {
+    rho_passive_claim_nearest(search, 1, &candidate);
+    if (!rho_passive_score_claimed(search, &candidate, &chi2)) {
         return 0;
     }
     struct rho_passive *passive = search->passive;

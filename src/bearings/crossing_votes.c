@@ -12,7 +12,7 @@
 static unsigned max_votes_of_row(const struct rho_passive_search *search, unsigned row)
 {
     unsigned most = 0;
-    for (unsigned column = 0; column < search->rho_cells; column++) {
+    for (unsigned column = 0; column < RHO_PASSIVE_RHO_CELLS; column++) {
         unsigned votes = rho_count_bits(search->passive->cells[row][column]);
         most = votes > most ? votes : most;
     }
@@ -30,11 +30,11 @@ void rho_passive_vote_lines(struct rho_passive_search *search)
             /* the scan's bit in the cells that the crossing's errors reach */
             const struct rho_passive_point *point = &passive->points[n];
             float rho_m = point->x_m * cosine + point->y_m * sine;
-            float middle = rho_m / cell_m + 0.5f * (float)search->rho_cells;
+            float middle = rho_m / cell_m + 0.5f * (float)RHO_PASSIVE_RHO_CELLS;
             float reach = SPREAD_SIGMAS * rho_passive_rho_sigma_m(point, cosine, sine) / cell_m;
             reach = reach < (float)SPREAD_CELLS_MAX ? reach : (float)SPREAD_CELLS_MAX;
-            int to = rho_cell_at(middle + reach, search->rho_cells);
-            for (int i = rho_cell_at(middle - reach, search->rho_cells); i <= to; i++) {
+            int to = rho_cell_at(middle + reach, RHO_PASSIVE_RHO_CELLS);
+            for (int i = rho_cell_at(middle - reach, RHO_PASSIVE_RHO_CELLS); i <= to; i++) {
                 passive->cells[row][i] = (uint16_t)(passive->cells[row][i] | 1u << point->scan);
             }
         }
@@ -49,7 +49,7 @@ struct cell {
 static int has_exactly_votes(const struct rho_passive_search *search, int row, int column,
                              unsigned votes)
 {
-    return row >= 0 && row < search->theta_cells && column >= 0 && column < search->rho_cells &&
+    return row >= 0 && row < search->theta_cells && column >= 0 && column < RHO_PASSIVE_RHO_CELLS &&
            rho_count_bits(search->passive->cells[row][column]) == votes;
 }
 
@@ -107,9 +107,9 @@ int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes
     for (int i = at.row - NEIGHBOUR_CELLS; i <= at.row + NEIGHBOUR_CELLS; i++) {
         int is_turned = i < 0 || i >= search->theta_cells;
         int row = i < 0 ? i + search->theta_cells : is_turned ? i - search->theta_cells : i;
-        int middle = is_turned ? search->rho_cells - 1 - at.column : at.column;
+        int middle = is_turned ? RHO_PASSIVE_RHO_CELLS - 1 - at.column : at.column;
         for (int column = middle - NEIGHBOUR_CELLS; column <= middle + NEIGHBOUR_CELLS; column++) {
-            if (column >= 0 && column < search->rho_cells) {
+            if (column >= 0 && column < RHO_PASSIVE_RHO_CELLS) {
                 search->passive->cells[row][column] = 0;
             }
         }
@@ -118,7 +118,7 @@ int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes
     *line = (struct rho_passive_line){
         .cosine = search->cosine[at.row],
         .sine = search->sine[at.row],
-        .rho_m = ((float)at.column + 0.5f - 0.5f * (float)search->rho_cells) *
+        .rho_m = ((float)at.column + 0.5f - 0.5f * (float)RHO_PASSIVE_RHO_CELLS) *
                  search->passive->config.rho_cell_m};
     return 1;
 }

@@ -105,8 +105,7 @@ void rho_passive_claim_best_set(struct rho_passive_search *search)
     rho_passive_choose(search, &choice);
     rho_passive_fit_jointly(search, &choice, &passive->best);
     for (unsigned i = 0; i < passive->best.num; i++) {
-        rho_passive_mark_claims(passive, (rho_passive_const_claim *)passive->best.tracks[i].claim,
-                                1);
+        rho_passive_mark_claims(passive, &passive->best.tracks[i], 1);
     }
 }
 
@@ -128,7 +127,7 @@ void rho_passive_select_tracks(struct rho_passive_search *search)
     for (unsigned i = 0; i < best->num; i++) {
         struct rho_passive_track *track = &passive->tracks[passive->num_tracks];
         memcpy(track->claim, best->tracks[i].claim, sizeof track->claim);
-        if (!rho_passive_estimate_track(search, best->tracks[i].state_m, track)) {
+        if (!rho_passive_estimate_track(search, &best->tracks[i], track)) {
             continue; /* its covariance cannot be computed */
         }
         track->score_mnat = nat_to_mnat(best->tracks[i].score_nat);

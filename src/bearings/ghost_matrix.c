@@ -28,11 +28,6 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
         !(range_max_m > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
-    static const uint8_t reason_of[RHO_NUM_CROSSING_FATES] = {
-        [RHO_CROSSING_MEETS] = RHO_GHOST_KEPT,
-        [RHO_CROSSING_SIDES] = RHO_GHOST_SIDES,
-        [RHO_CROSSING_APART] = RHO_GHOST_APART,
-        [RHO_CROSSING_RANGE] = RHO_GHOST_RANGE};
     matrix->rows = (uint16_t)num_a;
     matrix->columns = (uint16_t)num_b;
     for (unsigned i = 0; i < num_a; i++) {
@@ -41,7 +36,7 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
             enum rho_crossing_fate fate = rho_crossing_find(
                 base, bearings_a_rad[i], bearings_b_rad[j], range_max_m, &crossing);
             matrix->delta_rad[i][j] = fate == RHO_CROSSING_MEETS ? crossing.delta_rad : 0.0f;
-            matrix->reason[i][j] = reason_of[fate];
+            matrix->reason[i][j] = (uint8_t)fate;
         }
     }
     return RHO_OK;

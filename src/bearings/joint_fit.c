@@ -145,32 +145,25 @@ static void fit_set(const struct rho_passive_search *search, struct rho_passive_
                 }
             }
             for (unsigned t = 0; t < set->num; t++) {
-                struct rho_passive_candidate *track = &set->tracks[t];
-                rho_passive_step_to_claims(search, track->state_m,
-                                           (rho_passive_const_claim *)track->claim);
+                rho_passive_step_to_claims(search, &set->tracks[t]);
             }
         }
         set->total_nat = 0.0f;
         for (unsigned t = 0; t < set->num; t++) {
-            struct rho_passive_candidate *track = &set->tracks[t];
-            struct rho_passive_score score = rho_passive_score_claimed(
-                search, track->state_m, (rho_passive_const_claim *)track->claim);
-            track->score_nat = score.score_nat;
-            track->hits = score.hits;
-            set->chi2[t] = score.chi2;
-            set->is_track[t] = (uint8_t)score.is_track;
-            set->total_nat += score.score_nat;
+            set->is_track[t] =
+                (uint8_t)rho_passive_score_claimed(search, &set->tracks[t], &set->chi2[t]);
+            set->total_nat += set->tracks[t].score_nat;
         }
     } while (drop_worst_non_track(set));
 }
 
-void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,
+void rho_passive_mark_claims(struct rho_passive *passive, const struct rho_passive_candidate *track,
                              uint8_t is_claimed)
 {
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            if (claims[k][s] > 0) {
-                passive->is_claimed[k][s][claims[k][s] - 1u] = is_claimed;
+            if (track->claim[k][s] > 0) {
+                passive->is_claimed[k][s][track->claim[k][s] - 1u] = is_claimed;
             }
         }
     }
@@ -202,11 +195,11 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
     for (unsigned t = 0; t < spare->num; t++) {
         struct rho_passive_candidate *track = &spare->tracks[t];
         rho_passive_fit_nearest(search, track->state_m, 0);
-        (void)rho_passive_score_nearest(search, track->state_m, 0, track->claim);
-        rho_passive_mark_claims(passive, (rho_passive_const_claim *)track->claim, 1);
+        rho_passive_claim_nearest(search, 0, track);
+        rho_passive_mark_claims(passive, track, 1);
     }
     for (unsigned t = 0; t < spare->num; t++) {
-        rho_passive_mark_claims(passive, (rho_passive_const_claim *)spare->tracks[t].claim, 0);
+        rho_passive_mark_claims(passive, &spare->tracks[t], 0);
     }
     fit_set(search, spare);
     if (spare->total_nat > set->total_nat + GAIN_MIN_NAT) {

@@ -45,12 +45,13 @@ static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas
 }
 
 /*
- * Normal equations of the claimed bearings at any distance, or with claim NULL of the nearest ones
- * within the gate; with weak priors of position and speed.
+ * Normal equations of the nearest bearings within the gate, or with a gate of 0 of the claimed ones
+ * at any distance; with weak priors of position and speed.
  */
 static struct equations equations_of_bearings(const struct rho_passive_search *search,
                                               const float state_m[N], float gate,
-                                              int include_claimed, rho_passive_const_claim *claim)
+                                              int include_claimed,
+                                              const uint8_t (*claim)[RHO_MAX_PASSIVE_SENSORS])
 {
     const struct rho_batch *batch = &search->passive->batch;
     float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
@@ -58,9 +59,9 @@ static struct equations equations_of_bearings(const struct rho_passive_search *s
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                claim ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
-                      : rho_passive_match_nearest(search, k, s, state_m, include_claimed);
-            if (nearest.bearing >= 0 && (claim || is_in_gate(&nearest, gate))) {
+                gate > 0.0f ? rho_passive_match_nearest(search, k, s, state_m, include_claimed)
+                            : rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
+            if (nearest.bearing >= 0 && (!(gate > 0.0f) || is_in_gate(&nearest, gate))) {
                 add_bearing_equation(search, k, &nearest, &equations);
             }
         }
@@ -111,11 +112,17 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
 
-void rho_passive_step_to_claims(const struct rho_passive_search *search, float state_m[N],
-                                rho_passive_const_claim *claim)
+static struct equations equations_of_claims(const struct rho_passive_search *search,
+                                            const struct rho_passive_candidate *track)
 {
-    struct equations equations = equations_of_bearings(search, state_m, 0.0f, 0, claim);
-    (void)take_step(search, &equations, state_m);
+    return equations_of_bearings(search, track->state_m, 0.0f, 0, track->claim);
+}
+
+void rho_passive_step_to_claims(const struct rho_passive_search *search,
+                                struct rho_passive_candidate *track)
+{
+    struct equations equations = equations_of_claims(search, track);
+    (void)take_step(search, &equations, track->state_m);
 }
 
 /* Whether the state's position was within the sensor's sector in the scan. */
@@ -133,33 +140,37 @@ static int is_in_view(const struct rho_passive_search *search, unsigned scan, un
     return rho_angle_in_sector(rho_atan2(offset.y_m, offset.x_m), from_rad, to_rad);
 }
 
-/* True where score, hits, chi-square, speed and sensors are those of a track. */
-static int is_track(const struct rho_passive_search *search, const float state_m[N],
-                    const struct rho_passive_score *score, rho_passive_const_claim *claim)
+/*
+ * True where score, hits, chi-square, speed and sensors are those of a track. out_of_view: looks of
+ * sensors whose sector did not contain its position.
+ */
+static int is_track(const struct rho_passive_search *search,
+                    const struct rho_passive_candidate *track, float chi2, unsigned out_of_view)
 {
     const struct rho_passive *passive = search->passive;
     /*
      * Hits must be a share of the looks that had the position in view, and half that share of all
      * looks: otherwise a state that is hardly ever in view would need very few hits.
      */
-    float share = passive->config.hits_min, hits = (float)score->hits;
-    int has_hits = hits >= share * (float)(search->looks - score->looks_out_of_view) &&
+    float share = passive->config.hits_min, hits = (float)track->hits;
+    int has_hits = hits >= share * (float)(search->looks - out_of_view) &&
                    hits >= 0.5f * share * (float)search->looks;
     /* 99.9 % quantile of chi-square, 3.09 sigmas (approximation of Wilson and Hilferty) */
-    float n = score->hits > N ? (float)(score->hits - N) : 1.0f, part = 2.0f / (9.0f * n);
+    float n = track->hits > N ? (float)(track->hits - N) : 1.0f, part = 2.0f / (9.0f * n);
     float root = 1.0f - part + 3.09f * rho_sqrt(part);
     float most_m = passive->config.v_max_mps * search->half_s;
-    float way2_m2 = rho_square(state_m[RHO_PASSIVE_DX]) + rho_square(state_m[RHO_PASSIVE_DY]);
+    float way2_m2 =
+        rho_square(track->state_m[RHO_PASSIVE_DX]) + rho_square(track->state_m[RHO_PASSIVE_DY]);
     /* two sensors with two bearings each: one sensor measures neither range nor speed */
     unsigned sensors = 0;
     for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
         unsigned bearings = 0;
         for (unsigned k = 0; k < passive->batch.num_scans; k++) {
-            bearings += claim[k][s] > 0;
+            bearings += track->claim[k][s] > 0;
         }
         sensors += bearings >= 2;
     }
-    return has_hits && score->score_nat > 0.0f && score->chi2 < n * root * root * root &&
+    return has_hits && track->score_nat > 0.0f && chi2 < n * root * root * root &&
            !(way2_m2 >= rho_square(most_m)) && sensors >= 2;
 }
 
@@ -170,51 +181,46 @@ static float score_of_hit(const struct rho_passive_search *search,
     return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * chi2;
 }
 
-struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_search *search,
-                                                   const float state_m[N],
-                                                   rho_passive_const_claim *claim)
+int rho_passive_score_claimed(const struct rho_passive_search *search,
+                              struct rho_passive_candidate *track, float *chi2)
 {
     const struct rho_batch *batch = &search->passive->batch;
-    struct rho_passive_score score = {.hits = 0};
+    unsigned out_of_view = 0;
+    track->score_nat = *chi2 = 0.0f;
+    track->hits = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match seen =
-                rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
-            if (seen.bearing < 0 && !batch->was_seen[k][s]) {
-                continue;
+                rho_passive_match_claimed(search, k, s, track->state_m, track->claim[k][s]);
+            if (seen.bearing >= 0) {
+                float seen_chi2 = rho_square(rho_passive_residual(&seen));
+                track->hits++;
+                *chi2 += seen_chi2;
+                track->score_nat += score_of_hit(search, &seen, seen_chi2);
+            } else if (batch->was_seen[k][s] && is_in_view(search, k, s, track->state_m)) {
+                track->score_nat += search->miss_nat;
+            } else {
+                out_of_view += batch->was_seen[k][s];
             }
-            if (seen.bearing < 0) {
-                int is_seen = is_in_view(search, k, s, state_m);
-                score.score_nat = is_seen ? score.score_nat + search->miss_nat : score.score_nat;
-                score.looks_out_of_view = (uint16_t)(score.looks_out_of_view + !is_seen);
-                continue;
-            }
-            float chi2 = rho_square(rho_passive_residual(&seen));
-            score.hits++;
-            score.chi2 += chi2;
-            score.score_nat += score_of_hit(search, &seen, chi2);
         }
     }
-    score.is_track = is_track(search, state_m, &score, claim);
-    return score;
+    return is_track(search, track, *chi2, out_of_view);
 }
 
-struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
-                                                   const float state_m[N], int include_claimed,
-                                                   rho_passive_claim *claim)
+void rho_passive_claim_nearest(const struct rho_passive_search *search, int include_claimed,
+                               struct rho_passive_candidate *track)
 {
     const struct rho_batch *batch = &search->passive->batch;
-    memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));
+    memset(track->claim, 0, sizeof track->claim);
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                rho_passive_match_nearest(search, k, s, state_m, include_claimed);
+                rho_passive_match_nearest(search, k, s, track->state_m, include_claimed);
             if (nearest.bearing >= 0 && is_in_gate(&nearest, BEARING_GATE_SIGMAS)) {
-                claim[k][s] = (uint8_t)(nearest.bearing + 1);
+                track->claim[k][s] = (uint8_t)(nearest.bearing + 1);
             }
         }
     }
-    return rho_passive_score_claimed(search, state_m, (rho_passive_const_claim *)claim);
 }
 
 float rho_passive_gain_nat(const struct rho_passive_search *search, const float state_m[N],
@@ -234,11 +240,12 @@ float rho_passive_gain_nat(const struct rho_passive_search *search, const float 
     return score_of_hit(search, &seen, chi2) - search->miss_nat;
 }
 
-int rho_passive_estimate_track(const struct rho_passive_search *search, const float state_m[N],
+int rho_passive_estimate_track(const struct rho_passive_search *search,
+                               const struct rho_passive_candidate *from,
                                struct rho_passive_track *track)
 {
-    struct equations equations =
-        equations_of_bearings(search, state_m, 0.0f, 0, (rho_passive_const_claim *)track->claim);
+    const float *state_m = from->state_m;
+    struct equations equations = equations_of_claims(search, from);
     float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return 0;

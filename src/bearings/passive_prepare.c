@@ -47,7 +47,6 @@ void rho_passive_prepare(struct rho_passive_search *search)
     search->share_nat =
         search->hit_nat - log_sigmas / (total > 0.0f ? total : 1.0f) - search->miss_nat;
     search->theta_cells = (uint16_t)(RHO_PI / config->theta_cell_rad + 0.5f);
-    search->rho_cells = RHO_PASSIVE_RHO_CELLS;
     for (unsigned i = 0; i < search->theta_cells; i++) {
         float theta_rad = ((float)i + 0.5f) * RHO_PI / (float)search->theta_cells;
         search->cosine[i] = rho_cos(theta_rad);

@@ -44,7 +44,7 @@ struct rho_passive_search {
     unsigned looks;      /* number of reports: pairs of scan and sensor */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
-    uint16_t theta_cells, rho_cells;
+    uint16_t theta_cells;
     float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
     /* largest number of votes of a cell in each row of theta */
     uint8_t most_votes[RHO_PASSIVE_THETA_CELLS];
@@ -132,43 +132,32 @@ void rho_passive_mark_directions(struct rho_passive_search *search);
  */
 float rho_passive_agreement(const struct rho_passive_search *search,
                             const float state_m[RHO_PASSIVE_STATES], float least);
-/* The bearings that a track claims in one scan: for each sensor an index from 1; 0: no bearing. */
-typedef uint8_t rho_passive_claim[RHO_MAX_PASSIVE_SENSORS];
-typedef const uint8_t rho_passive_const_claim[RHO_MAX_PASSIVE_SENSORS];
-
 /* Fits a state to the nearest bearings: four Gauss-Newton steps, in gates of 8 to 3.5 sigmas. */
 void rho_passive_fit_nearest(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES], int include_claimed);
-/* Improves a state by one Gauss-Newton step towards the claimed bearings. */
+/* Improves a track's state by one Gauss-Newton step towards the bearings that it claims. */
 void rho_passive_step_to_claims(const struct rho_passive_search *search,
-                                float state_m[RHO_PASSIVE_STATES], rho_passive_const_claim *claim);
+                                struct rho_passive_candidate *track);
 
-struct rho_passive_score {
-    float score_nat, chi2;
-    uint16_t hits;
-    /* looks of sensors whose sector did not contain the state's position */
-    uint16_t looks_out_of_view;
-    int is_track; /* hits, chi2, speed, observability and score satisfy the conditions of a track */
-};
-
-/* Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores it. */
-struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
-                                                   const float state_m[RHO_PASSIVE_STATES],
-                                                   int include_claimed, rho_passive_claim *claim);
-/* Scores a state with given claims: log-likelihood ratio, chi-square, hits, test of a track. */
-struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_search *search,
-                                                   const float state_m[RHO_PASSIVE_STATES],
-                                                   rho_passive_const_claim *claim);
+/* Claims for a track's state the nearest bearing of each look within 3.5 sigmas. */
+void rho_passive_claim_nearest(const struct rho_passive_search *search, int include_claimed,
+                               struct rho_passive_candidate *track);
+/*
+ * Sets a track's score (log-likelihood ratio) and hits, and *chi2, by its claims. Returns whether
+ * hits, chi-square, speed, observability and score satisfy the conditions of a track.
+ */
+int rho_passive_score_claimed(const struct rho_passive_search *search,
+                              struct rho_passive_candidate *track, float *chi2);
 /* Score of a look with bearing `claim` (from 1) minus that of a miss; 0 beyond 3.5 sigmas. */
 float rho_passive_gain_nat(const struct rho_passive_search *search,
                            const float state_m[RHO_PASSIVE_STATES], unsigned scan, unsigned sensor,
                            unsigned claim);
 /*
- * Fills the position and velocity at the newest scan of a track, and their covariance, from a state
- * and the track's claims. Returns 0 where the normal equations are singular.
+ * Fills the position and velocity at the newest scan of a track, and their covariance, from its
+ * state and claims. Returns 0 where the normal equations are singular.
  */
 int rho_passive_estimate_track(const struct rho_passive_search *search,
-                               const float state_m[RHO_PASSIVE_STATES],
+                               const struct rho_passive_candidate *from,
                                struct rho_passive_track *track);
 /* Sorts the indices of the candidates by score, best first, into order[]. */
 void rho_passive_rank_candidates(const struct rho_passive *passive,
@@ -207,8 +196,8 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
 void rho_passive_add_gaining(struct rho_passive_choice *choice, unsigned which);
 /* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);
-/* Sets is_claimed of all bearings in `claims` to the given value, 0 or 1. */
-void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,
+/* Sets is_claimed of all bearings that a track claims to the given value, 0 or 1. */
+void rho_passive_mark_claims(struct rho_passive *passive, const struct rho_passive_candidate *track,
                              uint8_t is_claimed);
 /*
  * Fits the chosen candidates as a set of tracks: bearings are assigned anew, one to one, each track

@@ -18,31 +18,6 @@ enum {
     UNKNOWNS_MAX = 3 + 3 + 2,
 };
 
-int rho_anisotropic_nearest(struct search *search, const struct line_fit *fit,
-                            float variance_factor, unsigned m)
-{
-    const struct rho_window_scan *scan = rho_search_scan(search, m);
-    float t_s = search->time_s[m], bend_m2 = variance_factor * search->fit_process_m2;
-    struct rho_window_place place = {
-        .x_m = fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
-        .y_m = fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s,
-        .z_m = fit->z_m + fit->vz_mps * t_s,
-        .vx_mps = fit->vx_mps + fit->ax_mps2 * t_s,
-        .vy_mps = fit->vy_mps + fit->ay_mps2 * t_s,
-        .ax_mps2 = fit->ax_mps2,
-        .ay_mps2 = fit->ay_mps2,
-        .vz_mps = fit->vz_mps,
-        .noise = {bend_m2, 0.0f, bend_m2, bend_m2},
-        .factor = variance_factor,
-        .has_z = fit->has_z,
-        .gate_radius_m =
-            rho_sqrt(search->gate_chi2 *
-                     (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
-        .skip_flags = search->skip_flags,
-    };
-    return rho_window_nearest_plot(scan, &place, &search->initiator->work.window);
-}
-
 /*
  * Regression of a track through a set of plots. Position and velocity are the unknowns, and the
  * acceleration of turning targets. Each plot gives an equation for every axis of its noise, and one

@@ -29,20 +29,16 @@ int rho_plot_set_score(const struct search *search, const struct plot_set *set,
 
 /*
  * Arithmetic of plot_set.c for isotropic noise (isotropic_fit.c) and for all other plots
- * (anisotropic_fit.c): the fit; the plot of scan m nearest to it, -1 where the gate has none; and
- * *nat, ln of the joint density of a set's plots with position and velocity integrated out, with
- * the residual's chi-square and dimensions. Fit and likelihood return 0 where there is no track.
+ * (anisotropic_fit.c): the fit; and *nat, ln of the joint density of a set's plots with position
+ * and velocity integrated out, with the residual's chi-square and dimensions. Both return 0 where
+ * there is no track.
  */
 int rho_isotropic_fit(const struct search *search, const struct plot_set *set,
                       struct line_fit *fit);
-int rho_isotropic_nearest(struct search *search, const struct line_fit *fit, float variance_factor,
-                          unsigned m);
 int rho_isotropic_likelihood(const struct search *search, const struct plot_set *set,
                              struct set_score *score, float *nat);
 int rho_anisotropic_fit(const struct search *search, const struct plot_set *set,
                         struct line_fit *fit);
-int rho_anisotropic_nearest(struct search *search, const struct line_fit *fit,
-                            float variance_factor, unsigned m);
 int rho_anisotropic_likelihood(const struct search *search, const struct plot_set *set,
                                struct set_score *score, float *nat);
 

@@ -8,6 +8,7 @@
 #include "kernels.h"
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
 #include "start_thresholds.h"
 #include "target_model.h"
 
@@ -39,7 +40,7 @@ int rho_initiator_is_usable_config(const struct rho_initiator_config *config)
            rho_is_within(config->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->v_max_mps, 0.01f, RHO_LIMIT_SPEED_MPS) &&
            config->v_min_mps < config->v_max_mps && rho_is_within(config->pd, 0.01f, 0.999f) &&
-           (rho_is_within(config->false_tracks_per_hour, 0.0f, 0.0f) ||
+           (rho_is_equal(config->false_tracks_per_hour, 0.0f) ||
             rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f)) &&
            rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
            rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f) &&
@@ -85,11 +86,10 @@ enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
     }
     const struct rho_initiator_config *was = &initiator->config;
     if (config->scans != was->scans || config->area_is_fixed != was->area_is_fixed ||
-        (config->area_is_fixed &&
-         (!rho_is_within(config->area.x_min_m, was->area.x_min_m, was->area.x_min_m) ||
-          !rho_is_within(config->area.x_max_m, was->area.x_max_m, was->area.x_max_m) ||
-          !rho_is_within(config->area.y_min_m, was->area.y_min_m, was->area.y_min_m) ||
-          !rho_is_within(config->area.y_max_m, was->area.y_max_m, was->area.y_max_m)))) {
+        (config->area_is_fixed && (!rho_is_equal(config->area.x_min_m, was->area.x_min_m) ||
+                                   !rho_is_equal(config->area.x_max_m, was->area.x_max_m) ||
+                                   !rho_is_equal(config->area.y_min_m, was->area.y_min_m) ||
+                                   !rho_is_equal(config->area.y_max_m, was->area.y_max_m)))) {
         const enum rho_status status =
             rho_window_init(&initiator->window, sizeof initiator->window, config->scans,
                             config->area_is_fixed ? &config->area : 0, 0.0f);

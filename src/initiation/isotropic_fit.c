@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * isotropic_fit: least-squares fit of a straight track to plots with isotropic noise, equal along
- * and across the line of sight; the plot nearest to the track; and the likelihood of a set.
+ * and across the line of sight, and the likelihood of a set.
  */
 #include "candidates.h"
 #include "rhotrack/detail/approx.h"
@@ -58,26 +58,6 @@ int rho_isotropic_fit(const struct search *search, const struct plot_set *set, s
     fit->x_m = sum.x_m - fit->vx_mps * sum.time_s;
     fit->y_m = sum.y_m - fit->vy_mps * sum.time_s;
     return 1;
-}
-
-int rho_isotropic_nearest(struct search *search, const struct line_fit *fit, float variance_factor,
-                          unsigned m)
-{
-    const struct rho_window_scan *scan = rho_search_scan(search, m);
-    float bend_m2 = variance_factor * search->fit_process_m2;
-    struct rho_window_query query = {
-        .x_m = fit->x_m + fit->vx_mps * search->time_s[m],
-        .y_m = fit->y_m + fit->vy_mps * search->time_s[m],
-        .vx_mps = fit->vx_mps,
-        .vy_mps = fit->vy_mps,
-        .variance_m2 = bend_m2,
-        .sigma_factor = variance_factor,
-        .gate_chi2 = RHO_GATE_CHI2_2D,
-        .gate_radius_m = rho_sqrt(
-            RHO_GATE_CHI2_2D * (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
-        .skip_flags = search->skip_flags,
-    };
-    return rho_window_nearest_isotropic(scan, &query, &search->initiator->work.window);
 }
 
 /* Likelihood terms of a straight line; V: covariance of the plots' noise on one axis. */

@@ -97,12 +97,10 @@ static int need_spans_more_votes(struct search *search, const struct span_list *
     const struct rho_window_scan *first = rho_search_scan(search, 0);
     for (unsigned m = 1; m < search->num_scans; m++) {
         const struct rho_window_scan *scan = rho_search_scan(search, m);
-        has_more &=
-            scan->sensor.sensor_id == first->sensor.sensor_id &&
-            (m + 1u == search->num_scans ||
-             (rho_is_within(scan->sector_from_rad, first->sector_from_rad,
-                            first->sector_from_rad) &&
-              rho_is_within(scan->sector_to_rad, first->sector_to_rad, first->sector_to_rad)));
+        has_more &= scan->sensor.sensor_id == first->sensor.sensor_id &&
+                    (m + 1u == search->num_scans ||
+                     (rho_is_equal(scan->sector_from_rad, first->sector_from_rad) &&
+                      rho_is_equal(scan->sector_to_rad, first->sector_to_rad)));
     }
     return has_more && search->keeps_rate;
 }

@@ -11,6 +11,7 @@
 #include "candidates.h"
 #include "clutter_density.h"
 #include "policy.h"
+#include "rhotrack/detail/approx.h"
 
 int rho_plot_set_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {
@@ -18,14 +19,63 @@ int rho_plot_set_fit(const struct search *search, const struct plot_set *set, st
                                            : rho_anisotropic_fit(search, set, fit);
 }
 
+static float x_at(const struct line_fit *fit, float t_s)
+{
+    return fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s;
+}
+
+static float y_at(const struct line_fit *fit, float t_s)
+{
+    return fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s;
+}
+
+/* Index of the plot of scan m nearest to the fit, in a gate widened by variance_factor; or -1. */
+static int nearest_to_fit(struct search *search, const struct line_fit *fit, float variance_factor,
+                          unsigned m)
+{
+    const struct rho_window_scan *scan = rho_search_scan(search, m);
+    struct rho_window_work *work = &search->initiator->work.window;
+    const float t_s = search->time_s[m], bend_m2 = variance_factor * search->fit_process_m2;
+    const float gate_radius_m = rho_sqrt(
+        search->gate_chi2 * (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m));
+    if (rho_search_is_isotropic(search)) {
+        const struct rho_window_query query = {
+            .x_m = x_at(fit, t_s),
+            .y_m = y_at(fit, t_s),
+            .vx_mps = fit->vx_mps,
+            .vy_mps = fit->vy_mps,
+            .variance_m2 = bend_m2,
+            .sigma_factor = variance_factor,
+            .gate_chi2 = search->gate_chi2,
+            .gate_radius_m = gate_radius_m,
+            .skip_flags = search->skip_flags,
+        };
+        return rho_window_nearest_isotropic(scan, &query, work);
+    }
+    const struct rho_window_place place = {
+        .x_m = x_at(fit, t_s),
+        .y_m = y_at(fit, t_s),
+        .z_m = fit->z_m + fit->vz_mps * t_s,
+        .vx_mps = fit->vx_mps + fit->ax_mps2 * t_s,
+        .vy_mps = fit->vy_mps + fit->ay_mps2 * t_s,
+        .ax_mps2 = fit->ax_mps2,
+        .ay_mps2 = fit->ay_mps2,
+        .vz_mps = fit->vz_mps,
+        .noise = {bend_m2, 0.0f, bend_m2, bend_m2},
+        .factor = variance_factor,
+        .has_z = fit->has_z,
+        .gate_radius_m = gate_radius_m,
+        .skip_flags = search->skip_flags,
+    };
+    return rho_window_nearest_plot(scan, &place, work);
+}
+
 void rho_plot_set_associate(struct search *search, const struct line_fit *fit,
                             float variance_factor, struct plot_set *set)
 {
     set->mask = set->hits = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        int plot = rho_search_is_isotropic(search)
-                       ? rho_isotropic_nearest(search, fit, variance_factor, m)
-                       : rho_anisotropic_nearest(search, fit, variance_factor, m);
+        int plot = nearest_to_fit(search, fit, variance_factor, m);
         set->plot[m] = (uint16_t)(plot < 0 ? 0 : plot);
         if (plot >= 0) {
             set->mask |= 1u << m;
@@ -79,9 +129,7 @@ static int did_scan_cover_track(const struct search *search, const struct line_f
     const struct rho_window_scan *scan = rho_search_scan(search, m);
     float t_s = search->time_s[m];
     return rho_measurement_covers(rho_window_sensor_if_described(scan), scan->sector_from_rad,
-                                  scan->sector_to_rad,
-                                  fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
-                                  fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s);
+                                  scan->sector_to_rad, x_at(fit, t_s), y_at(fit, t_s));
 }
 
 int rho_plot_set_score(const struct search *search, const struct plot_set *set,

@@ -285,6 +285,21 @@ void rho_clutter_map_free_places(struct rho_clutter_map *map, uint32_t num, int6
     }
 }
 
+/* A taught echo stands. Its region is found at the first look: the sensor may be unknown yet. */
+static void teach_echo(struct rho_echo *echo, int32_t sensor_id, float x_m, float y_m,
+                       float along_m2, float across_m2, uint16_t hits)
+{
+    memset(echo, 0, sizeof *echo);
+    echo->sensor_id = sensor_id;
+    echo->x_m = x_m;
+    echo->y_m = y_m;
+    echo->along[0] = along_m2;
+    echo->across[0] = across_m2;
+    echo->plot = -1;
+    echo->hits = hits;
+    echo->region = UINT8_MAX;
+}
+
 enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t sensor_id, float x_m,
                                       float y_m, float sigma_range_m, float sigma_cross_m,
                                       uint16_t hits)
@@ -300,18 +315,8 @@ enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t senso
     rho_clutter_map_free_places(map, 1, map->time_us);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         if (map->echoes[i].hits == 0) {
-            map->echoes[i] = (struct rho_echo){
-                .sensor_id = sensor_id,
-                .x_m = x_m,
-                .y_m = y_m,
-                /* a taught echo stands: its speed is 0 */
-                .along = {sigma_range_m * sigma_range_m, 0.0f, 0.0f},
-                .across = {sigma_cross_m * sigma_cross_m, 0.0f, 0.0f},
-                .plot = -1,
-                .hits = hits,
-                /* found at the first look, as the sensor may not be known yet */
-                .region = UINT8_MAX,
-            };
+            teach_echo(&map->echoes[i], sensor_id, x_m, y_m, rho_square(sigma_range_m),
+                       rho_square(sigma_cross_m), hits);
             return RHO_OK;
         }
     }
@@ -401,15 +406,8 @@ void rho_clutter_map_restart(struct rho_clutter_map *map)
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         const struct rho_echo *echo = &map->echoes[i];
         if (echo->hits >= RHO_ECHO_KNOWN_HITS && rho_clutter_map_is_echo_standing(echo)) {
-            const struct rho_echo taught = {.sensor_id = echo->sensor_id,
-                                            .x_m = echo->x_m,
-                                            .y_m = echo->y_m,
-                                            .along = {echo->along[0]},
-                                            .across = {echo->across[0]},
-                                            .plot = -1,
-                                            .hits = echo->hits,
-                                            .region = UINT8_MAX};
-            map->echoes[kept++] = taught;
+            teach_echo(&map->echoes[kept++], echo->sensor_id, echo->x_m, echo->y_m, echo->along[0],
+                       echo->across[0], echo->hits);
         }
     }
     memset(&map->echoes[kept], 0, (RHO_ECHO_PLACES - kept) * sizeof map->echoes[0]);

@@ -17,8 +17,7 @@ void rho_vote_gates_bound(struct search *search)
     }
     for (unsigned m = 1; m < search->num_scans; m++) {
         const struct rho_sensor *sensor = &rho_search_scan(search, m)->sensor;
-        if (!rho_is_within(sensor->x_m, first->x_m, first->x_m) ||
-            !rho_is_within(sensor->y_m, first->y_m, first->y_m)) {
+        if (!rho_is_equal(sensor->x_m, first->x_m) || !rho_is_equal(sensor->y_m, first->y_m)) {
             return;
         }
     }

@@ -15,12 +15,9 @@ enum rho_status rho_accumulator_count_cells(const struct rho_accumulator_config 
         !rho_is_within(config->rho_max_m, 0.5f * config->rho_cell_m,
                        config->rho_cell_m * 0.5f * (float)RHO_MAX_RHO_CELLS) ||
         !rho_is_within(config->theta_cell_rad, 1.0e-4f, RHO_PI) ||
-        /* a plane with a single row of theta would have that row as its own neighbour */
-        (config->neighbours != 0 && !(config->theta_cell_rad < RHO_PI)) ||
         (config->votes != RHO_VOTES_SCANS && config->votes != RHO_VOTES_POINTS) ||
         config->min_votes < 1 || !rho_is_within(config->min_share, 0.0f, 1.0f) ||
-        config->no_pruning > 1 ||
-        (config->neighbours != 0 && config->neighbours != 4 && config->neighbours != 8)) {
+        config->no_pruning > 1) {
         return RHO_ERROR_CONFIG;
     }
     float rows = RHO_PI / config->theta_cell_rad;

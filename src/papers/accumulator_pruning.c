@@ -5,13 +5,12 @@
  *
  *     rows  0 ...                64 ...               128 ...
  *           |--------------------|--------------------|------    (1)
- *           |---------|----------|                               (2)
- *                     |----|-----|
- *                          |r r r|                               (3)
+ *           |----|----|----|-----|                               (2)
+ *                     |r r r|                                    (3)
  *
- * (1) If no bin of rho has min_votes, all 64 rows are skipped. (2) Otherwise each half of the rows
- * is searched, with the points of those bins that have min_votes. (3) When few rows are left, the
- * remaining points vote in each row.
+ * (1) If no bin of rho has min_votes, all 64 rows are skipped. (2) Otherwise each quarter of the
+ * rows is searched, with the points of those bins that have min_votes. (3) When few rows are left,
+ * the remaining points vote in each row.
  */
 #include <string.h>
 
@@ -20,21 +19,66 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define NONE UINT32_MAX
+#define LEVELS 5u /* of parts within the longest interval */
+#define INTERVAL_ROWS (PARTS * PARTS * PARTS * PARTS * PARTS)
 
-#define CELL uint8_t
-#define NAME(f) f##_narrow
-#include "coarse_votes.h"
-#undef CELL
-#undef NAME
-#define CELL uint16_t
-#define NAME(f) f##_wide
-#include "coarse_votes.h"
-#undef CELL
-#undef NAME
+/*
+ * Sets are_enough[b] where bins b .. b + 2 have min_votes, points or scans. Returns whether any is
+ * set.
+ */
+static int mark_triples(const struct rho_accumulator_pass *pass, const uint16_t *restrict votes,
+                        uint16_t *restrict are_enough, unsigned num_bins)
+{
+    const int counts_points = pass->counts_points;
+    const unsigned min_votes = pass->list.min_votes;
+    uint16_t any = 0;
+    for (unsigned i = 0; i < num_bins; i++) {
+        uint16_t v = (uint16_t)(votes[i] | votes[i + 1u] | votes[i + 2u]);
+        v = (uint16_t)(v - ((v >> 1) & 0x5555u));
+        v = (uint16_t)((v & 0x3333u) + ((v >> 2) & 0x3333u));
+        v = (uint16_t)((v + (v >> 4)) & 0x0f0fu);
+        v = (uint16_t)((v + (v >> 8)) & 0x1fu);
+        v = counts_points ? (uint16_t)(votes[i] + votes[i + 1u] + votes[i + 2u]) : v;
+        are_enough[i] = v >= (uint16_t)min_votes;
+        any |= are_enough[i];
+    }
+    return any;
+}
+
+/*
+ * Lists in bins[] the points that may reach min_votes, by their coarse bins of rho. These are a
+ * ring: rho values that differ by its whole length share a bin. Returns the number of points.
+ */
+static unsigned list_kept_points(struct rho_accumulator_pass *pass, unsigned n, unsigned num_bins)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    const uint16_t *bits = accumulator->few.bits;
+    uint16_t *votes = accumulator->few.votes, *are_enough = accumulator->few.are_enough;
+    int32_t *bins = accumulator->few.bins;
+    unsigned num_kept = 0;
+    memset(votes, 0, num_bins * sizeof *votes);
+    for (unsigned i = 0; i < n; i++) {
+        uint16_t *bin = &votes[bins[i]];
+        *bin = (uint16_t)(pass->counts_points ? *bin + 1u : *bin | bits[i]);
+    }
+    votes[num_bins] = votes[0];
+    votes[num_bins + 1u] = votes[1];
+    if (!mark_triples(pass, votes, are_enough + 2, num_bins)) {
+        return 0;
+    }
+    are_enough[0] = are_enough[num_bins];
+    are_enough[1] = are_enough[num_bins + 1u];
+    /* a point is kept where one of its three bins is marked */
+    for (unsigned i = 0; i < n; i++) {
+        const uint16_t *at = are_enough + bins[i];
+        bins[num_kept] = (int32_t)i;
+        num_kept += (at[0] | at[1] | at[2]) != 0;
+    }
+    return num_kept;
+}
 
 struct interval {
-    /* rows of theta, and the points left: the first num_points of room.few */
+    /* rows of theta, and the points left: the first num_points of few */
     unsigned first, num_rows, num_points;
 };
 
@@ -42,12 +86,6 @@ struct prune {
     struct rho_accumulator_pass *pass;
     /* circle around all points, its radius in rho cells */
     float centre_x_m, centre_y_m, radius_cells;
-    unsigned next_row; /* first row of the next interval */
-    /* row that is filled, but not searched for peaks yet; NONE: there is none */
-    unsigned last_filled;
-    unsigned num_rows;     /* rows of the next interval; 1: pruning does not pay */
-    unsigned num_unpruned; /* rows to search without pruning when it does not pay */
-    unsigned work;         /* cost of the current interval with pruning */
 };
 
 static float middle_of(const float *values, unsigned n)
@@ -79,9 +117,9 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
 {
     struct rho_accumulator_pass *pass = prune->pass;
     struct rho_accumulator *accumulator = pass->accumulator;
-    float *x_m = accumulator->room.few.x_m, *y_m = accumulator->room.few.y_m;
-    int32_t *bins = accumulator->room.few.bins;
-    uint16_t *bits = accumulator->room.few.bits;
+    float *x_m = accumulator->few.x_m, *y_m = accumulator->few.y_m;
+    int32_t *bins = accumulator->few.bins;
+    uint16_t *bits = accumulator->few.bits;
     unsigned n = of->num_points, num_bins = BINS_MIN, least = pass->list.min_votes;
     if (n < least || (!pass->counts_points && pass->points->num_scans < least)) {
         of->num_points = 0;
@@ -102,8 +140,7 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
                                                    prune->centre_x_m * by_x -
                                                    prune->centre_y_m * by_y};
     find_ring_bins(x_m, y_m, n, place, num_bins, bins);
-    of->num_points = pass->is_narrow ? list_kept_points_narrow(pass, n, num_bins)
-                                     : list_kept_points_wide(pass, n, num_bins);
+    of->num_points = list_kept_points(pass, n, num_bins);
     /* the points left, listed in bins[], change places with those at the front */
     for (unsigned to = 0; of->num_points < n && to < of->num_points; to++) {
         unsigned from = (unsigned)bins[to];
@@ -118,145 +155,75 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
     }
 }
 
-/*
- * Lists the peaks of the row filled last, once the row after it is filled: rows that are skipped
- * are cleared, and after the last row comes the first one, reversed.
- */
-static void search_last_filled(struct prune *prune, unsigned next)
+/* Lets the points of an interval vote in each of its rows. */
+static void search_rows(struct rho_accumulator_pass *pass, struct interval of)
 {
-    struct rho_accumulator_pass *pass = prune->pass;
-    unsigned row = prune->last_filled, slot = (row + 1u) % 3u;
-    if (row == NONE) {
-        return;
-    }
-    if (row + 1u == pass->accumulator->theta_cells) {
-        rho_accumulator_fill_row(pass, slot, 0, 1);
-    } else if (next != row + 1u) {
-        rho_accumulator_clear_row(pass, slot);
-    }
-    rho_accumulator_find_row_peaks(pass, row);
-}
-
-/* Fills each row of an interval with its points, and lists the peaks of the rows before. */
-static void search_rows(struct prune *prune, struct interval of)
-{
-    struct rho_accumulator_pass *pass = prune->pass;
-    prune->work += of.num_rows * (WORK_FIXED + WORK_POINT * of.num_points);
     for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
-        if (prune->last_filled == NONE || prune->last_filled + 1u != row) {
-            /* a gap: the row above has no votes, or for row 0 those of the last row, reversed */
-            search_last_filled(prune, row);
-            prune->last_filled = NONE;
-            if (row == 0) {
-                rho_accumulator_fill_row(pass, 2, pass->accumulator->theta_cells - 1u, 1);
-            } else {
-                rho_accumulator_clear_row(pass, (row - 1u) % 3u);
-            }
-        }
-        if (of.num_points == pass->num_points) {
-            rho_accumulator_fill_row(pass, row % 3u, row, 0);
-        } else {
-            rho_accumulator_fill_kept(pass, row % 3u, row, of.num_points);
-        }
-        search_last_filled(prune, row);
-        prune->last_filled = row;
+        rho_accumulator_vote_few(pass, row, of.num_points);
     }
 }
 
-/* Searches an interval by halving, depth first. Returns the number of points that it keeps. */
-static unsigned search_interval(struct prune *prune, struct interval whole)
+/* Searches an interval by parts, depth first, as long as points are left. */
+static void search_interval(const struct prune *prune, struct interval whole)
 {
-    struct interval stack[HALVINGS + 2];
-    unsigned depth = 0, num_kept = 0;
+    struct interval stack[LEVELS * (PARTS - 1u) + 1u];
+    unsigned depth = 0;
     stack[depth++] = whole;
     while (depth > 0) {
         struct interval of = stack[--depth];
-        unsigned num_before = of.num_points, num_left = of.num_rows / 2u;
-        prune->work += WORK_FIXED + WORK_POINT * num_before;
         drop_hopeless_points(prune, &of);
-        num_kept = of.num_rows == whole.num_rows ? of.num_points : num_kept;
-        /* where most points are left, the halves save less than their bins cost */
-        int is_worth_halving = of.num_rows > ROWS_LEAST &&
-                               (of.num_rows > ROWS_BLUNT || 4u * of.num_points <= 3u * num_before);
-        if (of.num_points > 0 && is_worth_halving) {
-            stack[depth++] =
-                (struct interval){of.first + num_left, of.num_rows - num_left, of.num_points};
-            stack[depth++] = (struct interval){of.first, num_left, of.num_points};
+        if (of.num_points > 0 && of.num_rows <= ROWS_LEAST) {
+            search_rows(prune->pass, of);
         } else if (of.num_points > 0) {
-            search_rows(prune, of);
+            unsigned part = (of.num_rows + PARTS - 1u) / PARTS;
+            part = part > ROWS_LEAST ? part : ROWS_LEAST;
+            for (unsigned end = of.num_rows; end > 0;) {
+                unsigned rest = end % part, num_rows = rest > 0 ? rest : part;
+                end -= num_rows;
+                stack[depth++] = (struct interval){of.first + end, num_rows, of.num_points};
+            }
         }
     }
-    return num_kept;
 }
 
-/*
- * Searches the next interval of rows. Its length is doubled while nearly all points are dropped,
- * and halved if few are: at the best length an interval costs about as much as its halves. If an
- * interval cost more than its rows without pruning, or even ROWS_LEAST rows keep many points, all
- * points vote in the next rows before pruning is tried again.
- */
-static void search_next_interval(struct prune *prune, unsigned rows_left)
-{
-    unsigned n = prune->pass->num_points, num_rows = prune->num_rows;
-    int is_pruned = num_rows >= ROWS_LEAST;
-    num_rows = is_pruned ? num_rows : prune->num_unpruned;
-    num_rows = num_rows < rows_left ? num_rows : rows_left;
-    struct interval of = {prune->next_row, num_rows, n};
-    prune->next_row += num_rows;
-    if (!is_pruned) {
-        search_rows(prune, of);
-        prune->num_rows = ROWS_LEAST;
-        prune->num_unpruned += prune->num_unpruned < INTERVAL_ROWS_MAX ? prune->num_unpruned : 0u;
-        return;
-    }
-    prune->work = 0;
-    unsigned num_kept = search_interval(prune, of);
-    /* a row of all points costs half a unit a point less than one of kept points */
-    if (prune->work > num_rows * (WORK_FIXED + n * 3u / 2u)) {
-        prune->num_rows = 1;
-        return;
-    }
-    if (SHRINK_KEPT * num_kept > n) {
-        prune->num_rows /= 2u;
-        return;
-    }
-    prune->num_unpruned = ROWS_UNPRUNED;
-    if (GROW_KEPT * num_kept <= n && prune->num_rows < INTERVAL_ROWS_MAX) {
-        prune->num_rows *= 2u;
-    }
-}
-
-void rho_accumulator_search_pruned(struct rho_accumulator_pass *pass)
+/* Searches interval by interval; all points lie within rho_max_m. */
+static void search_intervals(struct rho_accumulator_pass *pass)
 {
     const struct rho_accumulator_points *points = pass->points;
-    struct rho_accumulator *accumulator = pass->accumulator;
-    struct prune prune = {
-        .pass = pass, .last_filled = NONE, .num_rows = ROWS_START, .num_unpruned = ROWS_UNPRUNED};
-    unsigned n = pass->num_points, num_rows = accumulator->theta_cells;
-    if (n == 0) {
-        return;
-    }
-    /* each interval reorders this copy of the points */
-    for (unsigned scan = 0, i = 0; scan < points->num_scans; scan++) {
-        for (; i < points->scan_end[scan]; i++) {
-            accumulator->room.few.x_m[i] = points->x_m[i];
-            accumulator->room.few.y_m[i] = points->y_m[i];
-            accumulator->room.few.bits[i] = (uint16_t)(pass->counts_points ? 0u : 1u << scan);
-        }
-    }
+    const unsigned n = pass->num_points, num_rows = pass->accumulator->theta_cells;
+    struct prune prune = {.pass = pass,
+                          .centre_x_m = middle_of(points->x_m, n),
+                          .centre_y_m = middle_of(points->y_m, n)};
     float farthest2 = 0.0f;
-    prune.centre_x_m = middle_of(points->x_m, n);
-    prune.centre_y_m = middle_of(points->y_m, n);
     for (unsigned i = 0; i < n; i++) {
         float x_m = points->x_m[i] - prune.centre_x_m, y_m = points->y_m[i] - prune.centre_y_m;
         float range2 = x_m * x_m + y_m * y_m;
         farthest2 = range2 > farthest2 ? range2 : farthest2;
     }
-    prune.radius_cells = rho_sqrt(farthest2) * accumulator->cells_per_m;
-    while (prune.next_row < num_rows) {
-        search_next_interval(&prune, num_rows - prune.next_row);
+    prune.radius_cells = rho_sqrt(farthest2) * pass->accumulator->cells_per_m;
+    for (unsigned first = 0; first < num_rows; first += INTERVAL_ROWS) {
+        unsigned left = num_rows - first;
+        search_interval(&prune,
+                        (struct interval){first, left < INTERVAL_ROWS ? left : INTERVAL_ROWS, n});
     }
-    search_last_filled(&prune, NONE);
-    /* all points are within rho_max_m where rows are pruned */
-    pass->votes = n * num_rows;
+}
+
+void rho_accumulator_search_few(struct rho_accumulator_pass *pass, int is_pruned)
+{
+    const struct rho_accumulator_points *points = pass->points;
+    struct rho_accumulator *accumulator = pass->accumulator;
+    /* pruning reorders this copy of the points */
+    for (unsigned scan = 0, i = 0; scan < points->num_scans; scan++) {
+        for (; i < points->scan_end[scan]; i++) {
+            accumulator->few.x_m[i] = points->x_m[i];
+            accumulator->few.y_m[i] = points->y_m[i];
+            accumulator->few.bits[i] = (uint16_t)(1u << scan);
+        }
+    }
+    memset(accumulator->row, 0, sizeof accumulator->row);
+    if (is_pruned) {
+        search_intervals(pass);
+    } else {
+        search_rows(pass, (struct interval){0, accumulator->theta_cells, pass->num_points});
+    }
 }

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * accumulator_search: public calls of the accumulator: set-up, checks of the points, and the
- * choice between two searches: all rows of theta (accumulator_rows.c), or only rows
- * and points that can reach a peak (accumulator_pruning.c).
- */
+/* accumulator_search: public calls of the accumulator: set-up, checks of the points, searches. */
 #include "rhotrack/detail/accumulator.h"
 
 #include <string.h>
@@ -69,26 +65,53 @@ enum rho_status rho_accumulator_check_points(const struct rho_accumulator_points
     return RHO_OK;
 }
 
-/* Mask of the scans that have points that may lie beyond rho_max_m: bit m for scan m. */
-static unsigned scans_beyond_rho_max(const struct rho_accumulator_pass *pass)
+/* False where all points lie inside the cells of rho in all rows. */
+static int may_be_outside(const struct rho_accumulator_pass *pass)
 {
     const struct rho_accumulator_config *config = &pass->accumulator->config;
     const struct rho_accumulator_points *points = pass->points;
-    /* points within inside_m of the origin lie inside the cells of rho in all rows */
     float last_m = (float)pass->accumulator->rho_cells * config->rho_cell_m - config->rho_max_m;
     float least_m = last_m < config->rho_max_m ? last_m : config->rho_max_m;
     float inside_m = least_m - RHO_ACCUMULATOR_ROUNDING * config->rho_cell_m;
-    float inside2 = inside_m > 0.0f ? inside_m * inside_m : 0.0f;
-    unsigned i = 0, scans = 0;
-    for (unsigned scan = 0; scan < points->num_scans; scan++) {
-        float farthest2 = 0.0f;
-        for (; i < points->scan_end[scan]; i++) {
-            float range2 = points->x_m[i] * points->x_m[i] + points->y_m[i] * points->y_m[i];
-            farthest2 = range2 > farthest2 ? range2 : farthest2;
-        }
-        scans |= farthest2 < inside2 ? 0u : 1u << scan;
+    float inside2 = inside_m > 0.0f ? inside_m * inside_m : 0.0f, farthest2 = 0.0f;
+    for (unsigned i = 0; i < pass->num_points; i++) {
+        float range2 = points->x_m[i] * points->x_m[i] + points->y_m[i] * points->y_m[i];
+        farthest2 = range2 > farthest2 ? range2 : farthest2;
     }
-    return scans;
+    return !(farthest2 < inside2);
+}
+
+/* Lets all points vote, for the pass' list or plane. */
+static void search(struct rho_accumulator_pass *pass)
+{
+    const struct rho_accumulator *accumulator = pass->accumulator;
+    const unsigned n = count_points(pass->points);
+    if (n == 0) {
+        return; /* the arrays of points may be NULL */
+    }
+    pass->num_points = n;
+    pass->counts_points = accumulator->config.votes == RHO_VOTES_POINTS;
+    pass->has_outside = may_be_outside(pass);
+    if (n <= RHO_ACCUMULATOR_SPARSE_MAX &&
+        n <= accumulator->rho_cells / SPARSE_CELLS + SPARSE_POINTS) {
+        rho_accumulator_search_few(pass, !pass->has_outside && !accumulator->config.no_pruning &&
+                                             pass->list.min_votes >= PRUNED_VOTES);
+        return;
+    }
+    pass->is_narrow = pass->counts_points ? n <= UINT8_MAX : pass->points->num_scans <= 8u;
+    for (unsigned theta_cell = 0; theta_cell < accumulator->theta_cells; theta_cell++) {
+        rho_accumulator_vote_all(pass, theta_cell);
+    }
+}
+
+static enum rho_status check_search(const struct rho_accumulator *accumulator,
+                                    const struct rho_accumulator_points *points)
+{
+    if (!accumulator || !points) {
+        return RHO_ERROR_NULL;
+    }
+    return accumulator->magic == ACCUMULATOR_MAGIC ? rho_accumulator_check_points(points)
+                                                   : RHO_ERROR_STATE;
 }
 
 enum rho_status rho_accumulator_find_peaks(struct rho_accumulator *accumulator,
@@ -96,56 +119,42 @@ enum rho_status rho_accumulator_find_peaks(struct rho_accumulator *accumulator,
                                            struct rho_accumulator_peak *peaks, uint32_t max_peaks,
                                            struct rho_accumulator_result *result)
 {
-    if (!accumulator || !points || !result || (max_peaks > 0 && !peaks)) {
-        return RHO_ERROR_NULL;
-    }
-    if (accumulator->magic != ACCUMULATOR_MAGIC) {
-        return RHO_ERROR_STATE;
-    }
-    enum rho_status status = rho_accumulator_check_points(points);
+    enum rho_status status = check_search(accumulator, points);
     if (status != RHO_OK) {
         return status;
     }
-    unsigned num_points = count_points(points);
-    if (num_points == 0) { /* without points the arrays may be NULL, so that nothing is searched */
-        memset(result, 0, sizeof *result);
-        return RHO_OK;
+    if (!result || (max_peaks > 0 && !peaks)) {
+        return RHO_ERROR_NULL;
     }
-    const struct rho_accumulator_config *config = &accumulator->config;
     struct rho_accumulator_pass pass = {.accumulator = accumulator,
                                         .points = points,
                                         .list = {.peaks = peaks,
                                                  .max_peaks = max_peaks,
-                                                 .min_votes = config->min_votes,
-                                                 .min_share = config->min_share},
-                                        .num_points = num_points,
-                                        .neighbours = config->neighbours};
-    /* a narrow cell of 8 bits holds the bits of 8 scans, or a count of points to 255 */
-    pass.counts_points = config->votes == RHO_VOTES_POINTS;
-    pass.is_narrow = pass.counts_points ? num_points <= UINT8_MAX : points->num_scans <= 8u;
-    pass.is_sparse = num_points <= RHO_ACCUMULATOR_SPARSE_MAX &&
-                     num_points <= accumulator->rho_cells / SPARSE_CELLS + SPARSE_POINTS;
-    pass.scans_outside = scans_beyond_rho_max(&pass);
-    int is_pruned = pass.is_sparse && pass.scans_outside == 0 && !config->no_pruning &&
-                    config->min_votes >= PRUNED_VOTES;
-    if (pass.is_sparse) {
-        size_t cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
-        for (unsigned slot = 0; slot < 3; slot++) {
-            memset(accumulator->rows[slot], 0, cells * (pass.is_narrow ? 1u : 2u));
-            accumulator->num_touched[slot] = accumulator->num_reached[slot] = 0;
-        }
-    } else {
-        memset(accumulator->room.scan, 0, sizeof accumulator->room.scan);
-    }
-    if (is_pruned) {
-        rho_accumulator_search_pruned(&pass);
-    } else {
-        rho_accumulator_search_rows(&pass);
-    }
+                                                 .min_votes = accumulator->config.min_votes,
+                                                 .min_share = accumulator->config.min_share}};
+    search(&pass);
     rho_peak_list_sort(&pass.list);
-    *result = (struct rho_accumulator_result){.num_peaks = pass.list.num_peaks,
-                                              .peaks_dropped = pass.list.peaks_dropped,
-                                              .votes = pass.votes,
-                                              .votes_max = pass.list.votes_max};
+    const uint64_t votes = (uint64_t)pass.num_points * accumulator->theta_cells - pass.outside;
+    *result =
+        (struct rho_accumulator_result){.num_peaks = pass.list.num_peaks,
+                                        .peaks_dropped = pass.list.peaks_dropped,
+                                        .votes = votes < UINT32_MAX ? (uint32_t)votes : UINT32_MAX,
+                                        .votes_max = pass.list.votes_max};
     return RHO_OK;
+}
+
+enum rho_status rho_accumulator_plane(struct rho_accumulator *accumulator,
+                                      const struct rho_accumulator_points *points,
+                                      struct rho_votes_picture *plane)
+{
+    enum rho_status status = check_search(accumulator, points);
+    if (status == RHO_OK) {
+        status = rho_votes_picture_init(plane, accumulator->theta_cells, accumulator->rho_cells);
+    }
+    if (status == RHO_OK) {
+        struct rho_accumulator_pass pass = {
+            .accumulator = accumulator, .points = points, .plane = plane, .list = {.min_votes = 1}};
+        search(&pass);
+    }
+    return status;
 }

@@ -2,8 +2,6 @@
 /* hough: configuration of the methods, passes over rows of theta, thresholds, suppression. */
 #include "rhotrack/hough.h"
 
-#include <string.h>
-
 #include "hough_search.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
@@ -304,31 +302,16 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
     return status;
 }
 
-/* Method HT: notes all plots' votes in the plane, row by row of theta: scans, or counts. */
+/* Method HT: the accumulator notes its votes, in units of 1 / RHO_HOUGH_VOTE. */
 static enum rho_status note_ht_votes(struct rho_hough *hough, const struct rho_hough_points *points,
                                      struct rho_votes_picture *plane)
 {
-    const struct rho_accumulator_points *at = &points->at;
-    const enum rho_status status = init_accumulator(hough);
-    const int has_scans = hough->config.votes == RHO_VOTES_SCANS;
-    uint16_t *row = hough->work.accumulator.rows[0];
-    for (unsigned theta = 0; status == RHO_OK && theta < hough->theta_cells; theta++) {
-        memset(row, 0, hough->rho_cells * sizeof row[0]);
-        for (unsigned scan = 0, i = 0; scan < at->num_scans; scan++) {
-            for (; i < at->scan_end[scan]; i++) {
-                const int cell = rho_accumulator_cell_of_point(&hough->work.accumulator, theta,
-                                                               at->x_m[i], at->y_m[i]);
-                if (cell >= 0) {
-                    row[cell] =
-                        (uint16_t)(has_scans ? row[cell] | 1u << scan
-                                             : row[cell] + (row[cell] < UINT16_MAX ? 1u : 0u));
-                }
-            }
-        }
-        for (unsigned cell = 0; cell < hough->rho_cells; cell++) {
-            const uint32_t votes = has_scans ? rho_count_bits(row[cell]) : row[cell];
-            rho_votes_picture_enter_cell(plane, theta, cell, votes * RHO_HOUGH_VOTE);
-        }
+    enum rho_status status = init_accumulator(hough);
+    if (status == RHO_OK) {
+        status = rho_accumulator_plane(&hough->work.accumulator, &points->at, plane);
+    }
+    for (unsigned i = 0; status == RHO_OK && i < (unsigned)plane->height * plane->width; i++) {
+        plane->votes[i] *= RHO_HOUGH_VOTE;
     }
     return status;
 }
@@ -345,10 +328,11 @@ enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_
         (component != RHO_HOUGH_VOTES && !rho_hough_uses_kernels(hough))) {
         return RHO_ERROR_VALUE;
     }
+    if (hough->config.method == RHO_HOUGH_HT) {
+        return note_ht_votes(hough, points, plane);
+    }
     status = rho_votes_picture_init(plane, hough->theta_cells, hough->rho_cells);
-    if (status == RHO_OK && hough->config.method == RHO_HOUGH_HT) {
-        status = note_ht_votes(hough, points, plane);
-    } else if (status == RHO_OK) {
+    if (status == RHO_OK) {
         run_passes(hough, points, component, plane, NULL, &result);
     }
     return status;

@@ -113,37 +113,19 @@ static uint32_t to_vote_parts(float membership)
     return (uint32_t)(membership * (float)RHO_HOUGH_VOTE + 0.5f);
 }
 
-/* Falsity of every vote: lambda times the squared probability of a false plot. */
-static float pair_falsity(const struct rho_hough *hough)
-{
-    return hough->config.lambda_k * hough->config.p_false * hough->config.p_false;
-}
-
-struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
-                                                           const struct rho_hough_points *points,
-                                                           struct rho_line line,
-                                                           const struct rho_hough_nearest *nearest)
-{
-    const float f = pair_falsity(hough);
-    return (struct rho_hough_memberships){
-        .truth = nearest->count > 0 ? to_vote_parts(rho_exp(-0.5f * nearest->distance2[0])) : 0,
-        .indeterminacy = to_vote_parts(kernel_indeterminacy(hough, points, line, nearest)),
-        .falsity = to_vote_parts(f < 1.0f ? f : 1.0f)};
-}
-
-uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
-                               struct rho_line line, const struct rho_hough_nearest *nearest)
+struct rho_hough_vote rho_hough_vote_of_line(const struct rho_hough *hough,
+                                             const struct rho_hough_points *points,
+                                             struct rho_line line,
+                                             const struct rho_hough_nearest *nearest)
 {
     const struct rho_hough_config *config = &hough->config;
-    if (nearest->count == 0) {
-        return 0;
-    }
-    float vote = rho_exp(-0.5f * nearest->distance2[0]);
-    if (config->uses_indeterminacy) {
-        float i = kernel_indeterminacy(hough, points, line, nearest);
-        vote = i > vote ? i : vote;
-    }
-    return pair_falsity(hough) > vote ? 0 : to_vote_parts(vote);
+    const float f = config->lambda_k * config->p_false * config->p_false;
+    const float t = nearest->count > 0 ? rho_exp(-0.5f * nearest->distance2[0]) : 0.0f;
+    const float i = kernel_indeterminacy(hough, points, line, nearest);
+    const float vote = config->uses_indeterminacy && i > t ? i : t;
+    return (struct rho_hough_vote){
+        .weight = f > vote ? 0 : to_vote_parts(vote),
+        .of = {to_vote_parts(t), to_vote_parts(i), to_vote_parts(f < 1.0f ? f : 1.0f)}};
 }
 
 /*
@@ -234,20 +216,18 @@ static uint32_t larger(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/* What a pair adds to the component's sum in its cell: its vote, or one of its memberships. */
-static uint32_t vote_component(const struct rho_hough_pass *pass, struct rho_line line,
-                               const struct rho_hough_nearest *nearest)
+/* What a pair's vote adds to the component's sum in its cell. */
+static uint32_t component_of_vote(enum rho_hough_component component,
+                                  const struct rho_hough_vote *vote)
 {
-    if (pass->component == RHO_HOUGH_VOTES) {
-        return rho_hough_vote_weight(pass->hough, pass->points, line, nearest);
-    }
-    const struct rho_hough_memberships of =
-        rho_hough_memberships_of_line(pass->hough, pass->points, line, nearest);
-    return pass->component == RHO_HOUGH_TRUTH           ? of.truth
-           : pass->component == RHO_HOUGH_INDETERMINACY ? of.indeterminacy
-           : pass->component == RHO_HOUGH_FALSITY
-               ? of.falsity
-               : larger(of.truth, larger(of.indeterminacy, of.falsity));
+    const struct rho_hough_memberships of = vote->of;
+    const uint32_t parts[RHO_NUM_HOUGH_COMPONENTS] = {
+        [RHO_HOUGH_VOTES] = vote->weight,
+        [RHO_HOUGH_TRUTH] = of.truth,
+        [RHO_HOUGH_INDETERMINACY] = of.indeterminacy,
+        [RHO_HOUGH_FALSITY] = of.falsity,
+        [RHO_HOUGH_LARGEST] = larger(of.truth, larger(of.indeterminacy, of.falsity))};
+    return parts[component];
 }
 
 /* Votes for a pair by its nearest kernels, and keeps it as a kernel for the next scan's pairs. */
@@ -260,7 +240,8 @@ static void vote_with_kernels(struct rho_hough_pass *pass, unsigned scan, struct
     int32_t row = rho_hough_row_of_theta(hough, line.theta_rad);
     if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
         struct rho_hough_nearest nearest = find_nearest_kernels(pass, scan, line);
-        uint32_t votes = vote_component(pass, line, &nearest);
+        struct rho_hough_vote vote = rho_hough_vote_of_line(hough, points, line, &nearest);
+        uint32_t votes = component_of_vote(pass->component, &vote);
         if (votes > 0) {
             rho_hough_add_votes(pass, line, votes);
         }

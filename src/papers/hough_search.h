@@ -80,13 +80,17 @@ struct rho_hough_nearest {
 void rho_hough_rank_kernel(const struct rho_hough *hough, struct rho_line line,
                            struct rho_line kernel, struct rho_hough_pair pair,
                            struct rho_hough_nearest *nearest);
-/* Vote of a pair with these nearest kernels, in units of 1 / RHO_HOUGH_VOTE; 0: none. */
-uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
-                               struct rho_line line, const struct rho_hough_nearest *nearest);
-struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
-                                                           const struct rho_hough_points *points,
-                                                           struct rho_line line,
-                                                           const struct rho_hough_nearest *nearest);
+/* The vote of a pair of plots, in units of 1 / RHO_HOUGH_VOTE, and its memberships. */
+struct rho_hough_vote {
+    uint32_t weight; /* as the method counts it; 0: none */
+    struct rho_hough_memberships of;
+};
+
+/* Vote of a pair with these nearest kernels. */
+struct rho_hough_vote rho_hough_vote_of_line(const struct rho_hough *hough,
+                                             const struct rho_hough_points *points,
+                                             struct rho_line line,
+                                             const struct rho_hough_nearest *nearest);
 /* Lets all pairs of plots vote, for the rows of a pass. */
 void rho_hough_vote_pairs(struct rho_hough_pass *pass);
 

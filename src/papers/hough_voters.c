@@ -58,12 +58,6 @@ static struct rho_hough_nearest search_kernels(const struct rho_hough *hough,
     return nearest;
 }
 
-/* The vote of a pair of plots. */
-struct vote {
-    uint32_t weight; /* the vote that the method counts, in parts of a vote */
-    struct rho_hough_memberships of;
-};
-
 struct rho_hough_memberships rho_hough_memberships_of_pair(const struct rho_hough *hough,
                                                            const struct rho_hough_points *points,
                                                            unsigned scan,
@@ -75,16 +69,16 @@ struct rho_hough_memberships rho_hough_memberships_of_pair(const struct rho_houg
     }
     struct rho_line line = rho_hough_line_through_pair(points, pair);
     struct rho_hough_nearest nearest = search_kernels(hough, points, scan, line);
-    return rho_hough_memberships_of_line(hough, points, line, &nearest);
+    return rho_hough_vote_of_line(hough, points, line, &nearest).of;
 }
 
 /* Vote of a pair for the queried cell; weight 0: the pair does not vote for it. */
-static struct vote pair_vote_for_cell(const struct cell_query *query, unsigned scan,
-                                      struct rho_hough_pair pair)
+static struct rho_hough_vote pair_vote_for_cell(const struct cell_query *query, unsigned scan,
+                                                struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = query->hough;
     const struct rho_hough_points *points = query->points;
-    const struct vote none = {.weight = 0};
+    const struct rho_hough_vote none = {.weight = 0};
     enum rho_hough_speed_check speed = rho_hough_speed_check(hough, points, pair);
     int takes_all = hough->config.method == RHO_HOUGH_MHT;
     if (speed == RHO_SPEED_NO_LINE || (speed == RHO_SPEED_OUTSIDE && !takes_all)) {
@@ -109,14 +103,13 @@ static struct vote pair_vote_for_cell(const struct cell_query *query, unsigned s
         return none;
     }
     if (!rho_hough_uses_kernels(hough)) {
-        return (struct vote){.weight = RHO_HOUGH_VOTE};
+        return (struct rho_hough_vote){.weight = RHO_HOUGH_VOTE};
     }
     if (scan < 2) {
         return none;
     }
     struct rho_hough_nearest nearest = search_kernels(hough, points, scan, line);
-    struct vote vote = {.weight = rho_hough_vote_weight(hough, points, line, &nearest),
-                        .of = rho_hough_memberships_of_line(hough, points, line, &nearest)};
+    struct rho_hough_vote vote = rho_hough_vote_of_line(hough, points, line, &nearest);
     uint32_t *parts[] = {&vote.weight, &vote.of.truth, &vote.of.indeterminacy, &vote.of.falsity};
     for (unsigned i = 0; is_spread && i < sizeof parts / sizeof parts[0]; i++) {
         *parts[i] =
@@ -139,7 +132,8 @@ static uint32_t votes_of_plot_pairs(const struct cell_query *query, unsigned sca
     for (uint32_t j = rho_hough_scan_start(points, other); j < points->at.scan_end[other]; j++) {
         if (is_plot_near(query, j)) {
             struct rho_hough_pair pair = {next_else_previous ? i : j, next_else_previous ? j : i};
-            struct vote vote = pair_vote_for_cell(query, next_else_previous ? other : scan, pair);
+            struct rho_hough_vote vote =
+                pair_vote_for_cell(query, next_else_previous ? other : scan, pair);
             votes = rho_count(votes, vote.weight);
             sums->truth = rho_count(sums->truth, vote.of.truth);
             sums->indeterminacy = rho_count(sums->indeterminacy, vote.of.indeterminacy);

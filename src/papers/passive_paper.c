@@ -76,31 +76,12 @@ enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
     return status;
 }
 
-void rho_passive_paper_list_sensors(const struct rho_batch *batch,
-                                    struct rho_passive_paper_search *search)
+int rho_passive_paper_begin(struct rho_passive_paper *paper,
+                            struct rho_passive_paper_search *search)
 {
-    for (unsigned s = 0; s < batch->num_sensors; s++) {
-        unsigned looks = 0;
-        for (unsigned k = 0; k < batch->num_scans; k++) {
-            looks += batch->was_seen[k][s];
-        }
-        if (looks > 0) {
-            search->sensors[search->num_sensors++] = (uint8_t)s;
-        }
-    }
-    for (unsigned i = 0; i < search->num_sensors; i++) {
-        const struct rho_batch_sensor *sensor = &batch->sensors[search->sensors[i]];
-        search->middle_x_m += sensor->x_m / (float)search->num_sensors;
-        search->middle_y_m += sensor->y_m / (float)search->num_sensors;
-    }
-    search->near = search->num_sensors > 2 ? 1 : 0;
-}
-
-int rho_passive_paper_set_cells(struct rho_passive_paper_search *search)
-{
-    struct rho_passive_paper *paper = search->paper;
-    search->rows = (int)rho_passive_paper_theta_rows(&paper->config);
-    search->columns = RHO_PAPER_RHO_CELLS;
+    *search = (struct rho_passive_paper_search){
+        .paper = paper, .rows = (int)rho_passive_paper_theta_rows(&paper->config)};
+    rho_passive_paper_list_sensors(&paper->batch, search);
     paper->votes_min = paper->config.votes_min > 0
                            ? paper->config.votes_min
                            : (uint16_t)((4u * paper->batch.num_scans + 4u) / 5u);
@@ -115,12 +96,11 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    struct rho_passive_paper_search search = {.paper = paper};
+    struct rho_passive_paper_search search;
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
     rho_batch_compact(&paper->batch);
-    rho_passive_paper_list_sensors(&paper->batch, &search);
-    if (!rho_passive_paper_set_cells(&search)) {
+    if (!rho_passive_paper_begin(paper, &search)) {
         return RHO_OK;
     }
     const struct rho_batch *batch = &paper->batch;

@@ -20,7 +20,7 @@ static struct cell wrapped_cell(const struct rho_passive_paper_search *search, i
     struct cell cell = {row, column};
     while (cell.row < 0 || cell.row >= search->rows) {
         cell.row += cell.row < 0 ? search->rows : -search->rows;
-        cell.column = search->columns - 1 - cell.column;
+        cell.column = RHO_PAPER_RHO_CELLS - 1 - cell.column;
     }
     return cell;
 }
@@ -29,8 +29,8 @@ static struct cell wrapped_cell(const struct rho_passive_paper_search *search, i
 static unsigned votes_at(const struct rho_passive_paper_search *search, int row, int column)
 {
     struct cell cell = wrapped_cell(search, row, column);
-    return column >= 0 && column < search->columns ? search->paper->cells[cell.row][cell.column]
-                                                   : 0u;
+    return column >= 0 && column < RHO_PAPER_RHO_CELLS ? search->paper->cells[cell.row][cell.column]
+                                                       : 0u;
 }
 
 /* The middle of a plateau: of the cells with the same votes, the one nearest to their mean. */
@@ -65,7 +65,7 @@ void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
     for (int row = 0; row < search->rows; row++) {
-        for (int column = 0; column < search->columns; column++) {
+        for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
             paper->work.cells += paper->cells[row][column] > 0;
         }
     }
@@ -73,7 +73,7 @@ void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search)
         struct cell at = {0, 0};
         unsigned height = 0;
         for (int row = 0; row < search->rows; row++) {
-            for (int column = 0; column < search->columns; column++) {
+            for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
                 if (paper->cells[row][column] > height) {
                     height = paper->cells[row][column];
                     at = (struct cell){row, column};
@@ -87,7 +87,7 @@ void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search)
         for (int row = at.row - LINE_NEAR_ROWS; row <= at.row + LINE_NEAR_ROWS; row++) {
             for (int i = at.column - LINE_NEAR_COLUMNS; i <= at.column + LINE_NEAR_COLUMNS; i++) {
                 struct cell cell = wrapped_cell(search, row, i);
-                if (i >= 0 && i < search->columns) {
+                if (i >= 0 && i < RHO_PAPER_RHO_CELLS) {
                     paper->cells[cell.row][cell.column] = 0;
                 }
             }
@@ -97,7 +97,7 @@ void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search)
             continue;
         }
         struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, at.row);
-        float column = (float)at.column + 0.5f - 0.5f * (float)search->columns;
+        float column = (float)at.column + 0.5f - 0.5f * (float)RHO_PAPER_RHO_CELLS;
         paper->fits[paper->num_lines] =
             (struct rho_passive_paper_fit){.row = (int16_t)at.row, .column = (int16_t)at.column};
         paper->lines[paper->num_lines++] = (struct rho_passive_paper_line){
@@ -124,7 +124,7 @@ static unsigned find_most_voted_cell(const struct rho_passive_paper_search *sear
         rho_passive_paper_count_row(search, row, counts);
         for (int column = fit->column - search->near; column <= fit->column + search->near;
              column++) {
-            if (column >= 0 && column < search->columns && counts[column] > most) {
+            if (column >= 0 && column < RHO_PAPER_RHO_CELLS && counts[column] > most) {
                 most = counts[column];
                 *best = (struct cell){row, column};
             }
@@ -204,12 +204,12 @@ static void fit_line_motion(const struct rho_passive_paper_search *search,
 void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
-    for (unsigned i = 0; paper->num_lines > 0 && i + 1u < search->num_sensors; i++) {
-        for (unsigned j = i + 1u; j < search->num_sensors; j++) {
-            rho_passive_paper_cross(search, search->sensors[i], search->sensors[j]);
-            for (unsigned line = 0; line < paper->num_lines; line++) {
-                add_pair_crossings_to_fit(search, line);
-            }
+    struct rho_passive_paper_pair pair;
+    for (unsigned number = 0; paper->num_lines > 0 && rho_passive_paper_pair(paper, number, &pair);
+         number++) {
+        rho_passive_paper_cross(search, pair);
+        for (unsigned line = 0; line < paper->num_lines; line++) {
+            add_pair_crossings_to_fit(search, line);
         }
     }
     for (unsigned line = 0; line < paper->num_lines; line++) {

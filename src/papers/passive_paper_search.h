@@ -3,7 +3,7 @@
  * passive_paper_search: state of one search by the paper's passive Hough transform, and
  * the functions that its files share.
  *
- * - passive_paper_votes.c: crossings, votes in rows of theta, confirmation by all pairs
+ * - passive_paper_votes.c: pairs of sensors, crossings, votes, confirmation by all pairs
  * - passive_paper_lines.c: the choice of the lines, and the fits through their crossings
  * - passive_paper.c: configuration, frames, the sequence of steps of a search
  * - passive_paper_view.c: intermediate results of a search: ghost matrices, planes of votes
@@ -21,9 +21,9 @@ struct rho_passive_paper_search {
     float middle_x_m, middle_y_m;
     unsigned num_sensors; /* number of sensors with a scan in the batch */
     uint8_t sensors[RHO_MAX_PASSIVE_SENSORS];
-    int rows, columns; /* number of cells of theta and of rho */
-    int near;          /* distance at which neighbouring cells confirm a cell: 0 or 1 */
-    float half_s;      /* half the time from the first scan to the last */
+    int rows;     /* number of cells of theta */
+    int near;     /* distance at which neighbouring cells confirm a cell: 0 or 1 */
+    float half_s; /* half the time from the first scan to the last */
     /* time of each scan, from -1 for the first to 1 for the last */
     float step[RHO_MAX_PASSIVE_SCANS];
     struct rho_passive_paper_work per_pair; /* counters of the pair of sensors crossed last */
@@ -43,28 +43,23 @@ rho_passive_paper_direction(const struct rho_passive_paper_search *search, int r
 void rho_passive_paper_list_sensors(const struct rho_batch *batch,
                                     struct rho_passive_paper_search *search);
 /*
- * Sets the number of cells, and T, the votes that a cell needs. Returns 0 where the batch has too
- * few scans or sensors to search.
+ * Begins a search: sets sensors and rows, and T, the votes that a cell needs. Returns 0 where the
+ * batch has too few scans or sensors to search.
  */
-int rho_passive_paper_set_cells(struct rho_passive_paper_search *search);
+int rho_passive_paper_begin(struct rho_passive_paper *paper,
+                            struct rho_passive_paper_search *search);
 unsigned rho_passive_paper_theta_rows(const struct rho_passive_paper_config *config);
-/* Sets the baseline of two sensors, relative to the centroid. Returns 0 where they are too near. */
-int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
-                               const struct rho_batch *batch, unsigned a, unsigned b,
-                               struct rho_crossing_base *base);
-/* Bearings of two sensors in one scan. */
-struct rho_passive_paper_bearings {
-    float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
-};
-/* Fills and prunes the ghost matrix of two sensors' bearings in a scan. Returns 0 on an error. */
-int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
-                                  const struct rho_batch *batch,
-                                  const struct rho_crossing_base *base, unsigned scan,
-                                  struct rho_passive_paper_pair pair,
-                                  struct rho_passive_paper_bearings *bearings,
-                                  struct rho_ghost_matrix *matrix);
+/*
+ * Sets the baseline of two sensors, and fills and prunes the ghost matrix of their bearings in a
+ * scan. Returns 0 where they are too near each other.
+ */
+int rho_passive_paper_fill_ghosts(const struct rho_passive_paper *paper,
+                                  const struct rho_passive_paper_search *search,
+                                  struct rho_passive_paper_pair pair, unsigned scan,
+                                  struct rho_crossing_base *base, struct rho_ghost_matrix *matrix);
 /* Crosses two sensors' bearings in all scans; those kept go to paper->points. */
-void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b);
+void rho_passive_paper_cross(struct rho_passive_paper_search *search,
+                             struct rho_passive_paper_pair pair);
 /* Column (cell of rho) in which a crossing votes for lines of a direction; -1: outside. */
 int rho_passive_paper_column(const struct rho_passive_paper_search *search,
                              struct rho_passive_paper_direction direction,

@@ -7,26 +7,6 @@
 #include "policy.h"
 #include "rhotrack/types.h"
 
-int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
-                           struct rho_passive_paper_pair *pair)
-{
-    struct rho_passive_paper_search search = {.num_sensors = 0};
-    if (!paper || !pair || paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
-        return 0;
-    }
-    rho_passive_paper_list_sensors(&paper->batch, &search);
-    for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
-        const unsigned behind = search.num_sensors - 1u - i;
-        if (number < behind) {
-            *pair =
-                (struct rho_passive_paper_pair){search.sensors[i], search.sensors[i + 1u + number]};
-            return 1;
-        }
-        number -= behind;
-    }
-    return 0;
-}
-
 static int is_pair_of_search(const struct rho_passive_paper *paper,
                              const struct rho_passive_paper_pair *pair)
 {
@@ -44,7 +24,6 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
                                          struct rho_ghost_matrix *matrix)
 {
     struct rho_passive_paper_search search = {.num_sensors = 0};
-    struct rho_passive_paper_bearings bearings;
     struct rho_crossing_base base;
     if (!paper || !pair || !matrix) {
         return RHO_ERROR_NULL;
@@ -56,9 +35,7 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
         return RHO_ERROR_VALUE;
     }
     rho_passive_paper_list_sensors(&paper->batch, &search);
-    return rho_passive_paper_set_base(&search, &paper->batch, pair->a, pair->b, &base) &&
-                   rho_passive_paper_fill_ghosts(&paper->config, &paper->batch, &base, scan, *pair,
-                                                 &bearings, matrix)
+    return rho_passive_paper_fill_ghosts(paper, &search, *pair, scan, &base, matrix)
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
@@ -90,12 +67,7 @@ static enum rho_status prepare_search(struct rho_passive_paper *paper,
                                       const struct rho_passive_paper_pair *pair,
                                       struct rho_passive_paper_search *search)
 {
-    *search = (struct rho_passive_paper_search){.paper = paper};
-    if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
-        return RHO_ERROR_STATE;
-    }
-    rho_passive_paper_list_sensors(&paper->batch, search);
-    if (!rho_passive_paper_set_cells(search)) {
+    if (paper->magic != RHO_PASSIVE_PAPER_MAGIC || !rho_passive_paper_begin(paper, search)) {
         return RHO_ERROR_STATE;
     }
     return !pair || is_pair_of_search(paper, pair) ? RHO_OK : RHO_ERROR_VALUE;
@@ -111,14 +83,14 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
     }
     enum rho_status status = prepare_search(paper, pair, &search);
     if (status == RHO_OK) {
-        status = rho_votes_picture_init(plane, (unsigned)search.rows, (unsigned)search.columns);
+        status = rho_votes_picture_init(plane, (unsigned)search.rows, RHO_PAPER_RHO_CELLS);
     }
     if (status != RHO_OK) {
         return status;
     }
     const struct rho_passive_paper_work work = paper->work;
     if (pair) {
-        rho_passive_paper_cross(&search, pair->a, pair->b);
+        rho_passive_paper_cross(&search, *pair);
     } else {
         rho_passive_paper_vote_pairs(&search);
         paper->work = work;
@@ -129,7 +101,7 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
         if (pair) {
             rho_passive_paper_count_row(&search, row, paper->rows[0]);
         }
-        for (int column = 0; column < search.columns; column++) {
+        for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
             unsigned least = pair ? 0u : 1u;
             if (votes[column] > least) {
                 rho_votes_picture_enter_cell(plane, (unsigned)row, (unsigned)column,
@@ -156,14 +128,14 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
     struct rho_peak_list list = {
         .peaks = peaks, .max_peaks = max_peaks, .min_votes = paper->votes_min};
     const struct rho_peak_distance near = {.theta_cells = (uint16_t)search.rows,
-                                           .rho_cells = (uint16_t)search.columns,
+                                           .rho_cells = RHO_PAPER_RHO_CELLS,
                                            .theta = LINE_NEAR_ROWS,
                                            .rho = LINE_NEAR_COLUMNS};
     uint8_t *counts = paper->rows[0];
-    rho_passive_paper_cross(&search, pair->a, pair->b);
+    rho_passive_paper_cross(&search, *pair);
     for (int row = 0; row < search.rows; row++) {
         rho_passive_paper_count_row(&search, row, counts);
-        for (int column = 0; column < search.columns; column++) {
+        for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
             rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = counts[column],
                                                                      .theta_cell = (uint16_t)row,
                                                                      .rho_cell = (uint16_t)column});

@@ -1,11 +1,51 @@
 /* SPDX-License-Identifier: MIT */
-/* passive_paper_votes: crossings of sensor pairs, their votes, and cells that all pairs confirm. */
+/* passive_paper_votes: sensor pairs, their crossings and votes, cells that all pairs confirm. */
 #include <string.h>
 
 #include "passive_paper_search.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
+
+void rho_passive_paper_list_sensors(const struct rho_batch *batch,
+                                    struct rho_passive_paper_search *search)
+{
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        unsigned looks = 0;
+        for (unsigned k = 0; k < batch->num_scans; k++) {
+            looks += batch->was_seen[k][s];
+        }
+        if (looks > 0) {
+            search->sensors[search->num_sensors++] = (uint8_t)s;
+        }
+    }
+    for (unsigned i = 0; i < search->num_sensors; i++) {
+        const struct rho_batch_sensor *sensor = &batch->sensors[search->sensors[i]];
+        search->middle_x_m += sensor->x_m / (float)search->num_sensors;
+        search->middle_y_m += sensor->y_m / (float)search->num_sensors;
+    }
+    search->near = search->num_sensors > 2 ? 1 : 0;
+}
+
+int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
+                           struct rho_passive_paper_pair *pair)
+{
+    struct rho_passive_paper_search search = {.num_sensors = 0};
+    if (!paper || !pair || paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
+        return 0;
+    }
+    rho_passive_paper_list_sensors(&paper->batch, &search);
+    for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
+        const unsigned behind = search.num_sensors - 1u - i;
+        if (number < behind) {
+            *pair =
+                (struct rho_passive_paper_pair){search.sensors[i], search.sensors[i + 1u + number]};
+            return 1;
+        }
+        number -= behind;
+    }
+    return 0;
+}
 
 static unsigned collect_bearings(const struct rho_batch *batch, unsigned scan, unsigned sensor,
                                  float *bearings_rad)
@@ -16,52 +56,39 @@ static unsigned collect_bearings(const struct rho_batch *batch, unsigned scan, u
     return batch->num_bearings[scan][sensor];
 }
 
-int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
-                                  const struct rho_batch *batch,
-                                  const struct rho_crossing_base *base, unsigned scan,
-                                  struct rho_passive_paper_pair pair,
-                                  struct rho_passive_paper_bearings *bearings,
-                                  struct rho_ghost_matrix *matrix)
+int rho_passive_paper_fill_ghosts(const struct rho_passive_paper *paper,
+                                  const struct rho_passive_paper_search *search,
+                                  struct rho_passive_paper_pair pair, unsigned scan,
+                                  struct rho_crossing_base *base, struct rho_ghost_matrix *matrix)
 {
-    memset(bearings, 0, sizeof *bearings);
-    unsigned num_a = collect_bearings(batch, scan, pair.a, bearings->a_rad);
-    unsigned num_b = collect_bearings(batch, scan, pair.b, bearings->b_rad);
-    if (rho_ghost_fill(matrix, base, bearings->a_rad, num_a, bearings->b_rad, num_b,
-                       config->range_max_m) != RHO_OK) {
+    const struct rho_batch *batch = &paper->batch;
+    const struct rho_batch_sensor *a = &batch->sensors[pair.a], *b = &batch->sensors[pair.b];
+    float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
+    unsigned num_a = collect_bearings(batch, scan, pair.a, a_rad);
+    unsigned num_b = collect_bearings(batch, scan, pair.b, b_rad);
+    if (rho_crossing_set_base(base, a->x_m - search->middle_x_m, a->y_m - search->middle_y_m,
+                              b->x_m - search->middle_x_m, b->y_m - search->middle_y_m) != RHO_OK ||
+        rho_ghost_fill(matrix, base, a_rad, num_a, b_rad, num_b, paper->config.range_max_m) !=
+            RHO_OK) {
         return 0; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
-    rho_ghost_prune(matrix, config->rule);
+    rho_ghost_prune(matrix, paper->config.rule);
     return 1;
 }
 
-int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
-                               const struct rho_batch *batch, unsigned a, unsigned b,
-                               struct rho_crossing_base *base)
-{
-    const struct rho_batch_sensor *sensor_a = &batch->sensors[a];
-    const struct rho_batch_sensor *sensor_b = &batch->sensors[b];
-    return rho_crossing_set_base(
-               base, sensor_a->x_m - search->middle_x_m, sensor_a->y_m - search->middle_y_m,
-               sensor_b->x_m - search->middle_x_m, sensor_b->y_m - search->middle_y_m) == RHO_OK;
-}
-
-void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b)
+void rho_passive_paper_cross(struct rho_passive_paper_search *search,
+                             struct rho_passive_paper_pair pair)
 {
     struct rho_passive_paper *paper = search->paper;
-    const struct rho_passive_paper_pair pair = {(uint8_t)a, (uint8_t)b};
-    struct rho_crossing_base base;
     struct rho_passive_paper_work *work = &search->per_pair;
     memset(work, 0, sizeof *work);
-    memset(paper->scan_end, 0, sizeof paper->scan_end);
-    if (!rho_passive_paper_set_base(search, &paper->batch, a, b, &base)) {
-        return; /* cannot fail: sensor positions were checked when the frame was pushed */
-    }
     for (unsigned scan = 0; scan < paper->batch.num_scans; scan++) {
+        const struct rho_batch_bearing *a = paper->batch.bearings[scan][pair.a];
+        const struct rho_batch_bearing *b = paper->batch.bearings[scan][pair.b];
+        struct rho_crossing_base base;
         struct rho_ghost_matrix matrix;
-        struct rho_passive_paper_bearings bearings;
         paper->scan_end[scan] = scan > 0 ? paper->scan_end[scan - 1u] : 0;
-        if (!rho_passive_paper_fill_ghosts(&paper->config, &paper->batch, &base, scan, pair,
-                                           &bearings, &matrix)) {
+        if (!rho_passive_paper_fill_ghosts(paper, search, pair, scan, &base, &matrix)) {
             continue;
         }
         for (unsigned i = 0; i < matrix.rows; i++) {
@@ -69,7 +96,7 @@ void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a
                 struct rho_crossing crossing;
                 work->crossings++;
                 if (matrix.reason[i][j] != RHO_GHOST_KEPT ||
-                    rho_crossing_find(&base, bearings.a_rad[i], bearings.b_rad[j],
+                    rho_crossing_find(&base, a[i].bearing_rad, b[j].bearing_rad,
                                       paper->config.range_max_m, &crossing) != RHO_CROSSING_MEETS) {
                     work->ghosts++;
                 } else if (paper->scan_end[scan] == RHO_MAX_PAPER_CROSSINGS) {
@@ -103,8 +130,8 @@ int rho_passive_paper_column(const struct rho_passive_paper_search *search,
                              const struct rho_passive_paper_point *point)
 {
     float rho_m = point->x_m * direction.cosine + point->y_m * direction.sine;
-    float cell = rho_m / search->paper->config.rho_cell_m + 0.5f * (float)search->columns;
-    return cell >= 0.0f && cell < (float)search->columns ? (int)cell : -1;
+    float cell = rho_m / search->paper->config.rho_cell_m + 0.5f * (float)RHO_PAPER_RHO_CELLS;
+    return cell >= 0.0f && cell < (float)RHO_PAPER_RHO_CELLS ? (int)cell : -1;
 }
 
 void rho_passive_paper_count_row(const struct rho_passive_paper_search *search, int row,
@@ -127,12 +154,12 @@ void rho_passive_paper_count_row(const struct rho_passive_paper_search *search, 
 }
 
 /* Most votes of a cell and its eight neighbours, in three rows of theta. */
-static unsigned max_votes_near(const uint8_t *const rows[3], int column, int columns)
+static unsigned max_votes_near(const uint8_t *const rows[3], int column)
 {
     unsigned most = 0;
     for (int i = 0; i < 3; i++) {
         for (int j = column - 1; j <= column + 1; j++) {
-            if (j >= 0 && j < columns && rows[i][j] > most) {
+            if (j >= 0 && j < RHO_PAPER_RHO_CELLS && rows[i][j] > most) {
                 most = rows[i][j];
             }
         }
@@ -148,9 +175,8 @@ static void confirm_cells(struct rho_passive_paper_search *search, int row,
                           const uint8_t *const rows[3], int is_first)
 {
     uint8_t *cells = search->paper->cells[row];
-    for (int column = 0; column < search->columns; column++) {
-        unsigned most =
-            search->near > 0 ? max_votes_near(rows, column, search->columns) : rows[1][column];
+    for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
+        unsigned most = search->near > 0 ? max_votes_near(rows, column) : rows[1][column];
         unsigned so_far = is_first ? 1u : cells[column];
         unsigned sum = so_far + rows[1][column];
         int is_confirmed = so_far > 0 && most >= search->paper->votes_min;
@@ -175,17 +201,14 @@ void rho_passive_paper_vote_pairs(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper_work *work = &search->paper->work;
     const struct rho_passive_paper_work *more = &search->per_pair;
-    int is_first = 1;
-    for (unsigned i = 0; i + 1u < search->num_sensors; i++) {
-        for (unsigned j = i + 1u; j < search->num_sensors; j++) {
-            rho_passive_paper_cross(search, search->sensors[i], search->sensors[j]);
-            work->crossings = rho_count(work->crossings, more->crossings);
-            work->ghosts = rho_count(work->ghosts, more->ghosts);
-            work->points_dropped = rho_count(work->points_dropped, more->points_dropped);
-            unsigned voters = more->crossings - more->ghosts - more->points_dropped;
-            work->votes = rho_count(work->votes, voters * (unsigned)search->rows);
-            add_pair_votes(search, is_first);
-            is_first = 0;
-        }
+    struct rho_passive_paper_pair pair;
+    for (unsigned number = 0; rho_passive_paper_pair(search->paper, number, &pair); number++) {
+        rho_passive_paper_cross(search, pair);
+        work->crossings = rho_count(work->crossings, more->crossings);
+        work->ghosts = rho_count(work->ghosts, more->ghosts);
+        work->points_dropped = rho_count(work->points_dropped, more->points_dropped);
+        unsigned voters = more->crossings - more->ghosts - more->points_dropped;
+        work->votes = rho_count(work->votes, voters * (unsigned)search->rows);
+        add_pair_votes(search, number == 0);
     }
 }

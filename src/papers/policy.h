@@ -18,55 +18,20 @@
  */
 #define PRUNED_VOTES 3u
 
-/* accumulator_rows.c */
-
-/*
- * Blocks that are tested together where peaks are rare. Half or twice: more calls, or more blocks
- * tested twice; the same peaks.
- */
-#define BLOCKS 4u
-/*
- * A scan with fewer cells a point than this votes via the scratch row, as stores to one cell would
- * wait for each other. Half or twice: slower rows, the same votes.
- */
-#define CROWDED 4
-
 /* accumulator_pruning.c; all change the time of a search, none its peaks */
 
-/* Rows of theta in the first interval. Half or twice: one more interval until the length fits. */
-#define ROWS_START 16u
-/* First number of rows searched without pruning, when it does not pay; doubled each time. */
-#define ROWS_UNPRUNED (ROWS_START * 2u)
 /*
- * Halvings of the longest interval down to one row: with very few points an interval of 1024 rows
- * is often empty. Half: 32 rows, many intervals. Twice: no plane is so long.
+ * Parts of an interval of rows of theta that keeps points; the longest interval has PARTS^5 rows.
+ * Half: many intervals keep all points. Twice: many bins are marked for nothing.
  */
-#define HALVINGS 10
-#define INTERVAL_ROWS_MAX (UINT32_C(1) << HALVINGS)
+#define PARTS 4u
 /*
- * Rows of the shortest interval that is pruned or halved. Half: single rows are pruned, which costs
- * more than their votes. Twice: pairs of rows vote that could be skipped.
+ * Rows of the shortest interval that is pruned. Half: single rows are pruned, which costs more than
+ * their votes. Twice: pairs of rows vote that could be skipped.
  */
 #define ROWS_LEAST 2u
-/*
- * Intervals of at most this many rows are not halved if they keep more than 3/4 of their points.
- * Half or twice: more bins, or more votes.
- */
-#define ROWS_BLUNT 16u
 /* Fewest bins of rho. Half: more points share one by chance. Twice: more bins to clear. */
 #define BINS_MIN 64u
-/*
- * Intervals become shorter if they keep more than 1 / SHRINK_KEPT of all points, longer if they
- * keep at most 1 / GROW_KEPT. Half or twice: lengths that cost more than their halves or doubles.
- */
-#define SHRINK_KEPT 3u
-#define GROW_KEPT 16u
-/*
- * Cost model of pruning, in units of about a nanosecond on a workstation: an interval or a row, and
- * a point in either. Half or twice: pruning ends too early or too late.
- */
-#define WORK_FIXED 50u
-#define WORK_POINT 2u
 
 /* passive_paper_lines.c, passive_paper_view.c */
 

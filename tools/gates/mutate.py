@@ -47,8 +47,7 @@ GUARD_MIN = 1e12
 # {room: constants that change only the time or stack of a call, not its result}: cost models that
 # choose between two algorithms
 ALIKE = {
-    "papers": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$|BLOCKS$|CROWDED$|ROWS_|BINS_MIN$|WORK_"
-              r"|HALVINGS|(SHRINK|GROW)_KEPT$",
+    "papers": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$|PARTS$|ROWS_LEAST$|BINS_MIN$",
 }
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c",

@@ -36,11 +36,8 @@ static void scatter_points(unsigned count)
 
 int main(int argc, char **argv)
 {
-    struct rho_accumulator_config config = {.rho_max_m = 21220.0f,
-                                            .rho_cell_m = 5.0f,
-                                            .theta_cell_rad = 0.001f,
-                                            .min_votes = 5,
-                                            .neighbours = 8};
+    struct rho_accumulator_config config = {
+        .rho_max_m = 21220.0f, .rho_cell_m = 5.0f, .theta_cell_rad = 0.001f, .min_votes = 5};
     int count = argc == 3 ? atoi(argv[1]) : 0;
     if (count < 1 || count > POINTS_MAX) {
         fprintf(stderr, "hough: give 1 .. %d points, and plain or pruned\n", POINTS_MAX);

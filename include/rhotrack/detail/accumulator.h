@@ -5,15 +5,8 @@
  *
  * A line is rho = x cos(theta) + y sin(theta). Every point votes, for each cell of theta, in the
  * cell of rho where a line through it lies. The plane of all cells would take a hundred megabytes
- * at 5 m and 1 mrad; it is never stored. One row of theta at a time gets its votes, and only three
- * rows are kept: a cell is a peak if none of its neighbours has more.
- *
- *     theta i - 1   . . . n n n . .
- *     theta i       . . . n P n . .
- *     theta i + 1   . . . n n n . .  <- gets its votes, then row i is searched for peaks
- *
- * (rho, theta) and (-rho, theta +- pi) are one line: before the first row comes the last one with
- * rho reversed, and after the last row the first one with rho reversed.
+ * at 5 m and 1 mrad; it is never stored. One row of theta at a time gets its votes and is searched
+ * for peaks, the cells with enough votes. rho_peak_list_suppress drops those near a better one.
  *
  * Votes are distinct scans (a bit each: a scan votes once in a cell, for any number of its points)
  * or points. Peaks are the same, cell by cell, as those of an accumulator that holds the whole
@@ -31,6 +24,7 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
+#include "rhotrack/detail/votes_picture.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -51,16 +45,14 @@ struct rho_accumulator_config {
     /* size of the cells of rho; 2 rho_max_m / rho_cell_m, rounded, is 1 .. RHO_MAX_RHO_CELLS */
     float rho_cell_m;
     /*
-     * size of the cells of theta: 1e-4 .. pi, below pi with neighbours; cell i is at (i + 1/2)
-     * theta_cell_rad; the last cell may reach beyond pi
+     * size of the cells of theta: 1e-4 .. pi; cell i is at (i + 1/2) theta_cell_rad; the last cell
+     * may reach beyond pi
      */
     float theta_cell_rad;
     enum rho_accumulator_votes votes;
     uint16_t min_votes; /* smallest number of votes of a peak; at least 1 */
     /* smallest votes of a peak as a share of the most votes of all cells: 0 .. 1 */
     float min_share;
-    /* neighbours that a peak is compared with: 4, 8, or 0 (each cell with min_votes is a peak) */
-    uint8_t neighbours;
     /* 1: every point votes in every row: the same, but slower; 0: skips rows without peaks */
     uint8_t no_pruning;
 };
@@ -117,23 +109,17 @@ struct rho_accumulator {
     struct rho_accumulator_config config;
     /* the cell of rho_m, after a guard cell, is first_cell + rho_m cells_per_m */
     float cells_per_m, first_cell;
-    /* rows of 8-bit cells (16-bit: over 8 scans or 255 points), with guard cells at the ends */
-    uint16_t rows[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
-    /* sparse rows: the cells that were touched, and the cells that reached min_votes */
-    int32_t touched[3][RHO_ACCUMULATOR_SPARSE_MAX];
-    uint16_t reached[3][RHO_ACCUMULATOR_SPARSE_MAX + 1];
-    uint16_t num_touched[3], num_reached[3];
-    /* scratch: `scan` for dense rows, `few` for sparse rows */
-    union {
-        /* scratch row for the votes of one scan */
-        uint16_t scan[RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
-        struct {
-            float x_m[RHO_ACCUMULATOR_SPARSE_MAX], y_m[RHO_ACCUMULATOR_SPARSE_MAX];
-            int32_t bins[RHO_ACCUMULATOR_SPARSE_MAX];
-            uint16_t bits[RHO_ACCUMULATOR_SPARSE_MAX]; /* bit of each point's scan in a cell */
-            uint16_t votes[RHO_ACCUMULATOR_BINS + 2], are_enough[RHO_ACCUMULATOR_BINS + 2];
-        } few;
-    } room;
+    /* row of 8-bit cells (16-bit: over 8 scans or 255 points), with guard cells at the ends */
+    uint16_t row[RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
+    int32_t cells[RHO_ACCUMULATOR_SPARSE_MAX]; /* cells of points in the row */
+    /* scratch where there are few points */
+    struct {
+        float x_m[RHO_ACCUMULATOR_SPARSE_MAX], y_m[RHO_ACCUMULATOR_SPARSE_MAX];
+        int32_t bins[RHO_ACCUMULATOR_SPARSE_MAX];
+        uint16_t bits[RHO_ACCUMULATOR_SPARSE_MAX];        /* bit of each point's scan in a cell */
+        uint16_t reached[RHO_ACCUMULATOR_SPARSE_MAX + 1]; /* cells that reached min_votes */
+        uint16_t votes[RHO_ACCUMULATOR_BINS + 2], are_enough[RHO_ACCUMULATOR_BINS + 2];
+    } few;
 };
 
 /* Rows of theta and cells of rho in the plane of a config. Errors: CONFIG. Constant cost. */
@@ -159,18 +145,25 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accu
  *   peaks   room for max_peaks; gets the best peaks, best first: by votes, then lower theta_cell,
  *           then lower rho_cell
  *   result  all fields are filled
- * A cell is a peak if it has at least min_votes, no neighbour has more votes, and no neighbour
- * before it (by theta_cell, then rho_cell) has as many.
+ * A cell is a peak if it has at least min_votes, and min_share of the most votes.
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, a point not finite or beyond
  * RHO_LIMIT_POSITION_M); nothing but *accumulator's scratch is changed. Cost: theta cells times
  * (points, and the rho cells where there are more than RHO_ACCUMULATOR_SPARSE_MAX points), and
  * max_peaks' logarithm for each peak. With at most RHO_ACCUMULATOR_SPARSE_MAX points, all
  * within rho_max_m, and min_votes of 3 or more, rows that cannot have a peak are skipped: with few
- * points this saves up to 29/30 of the cost. Stack: 1.4 KB.
+ * points this saves up to 29/30 of the cost. Stack: 660 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_find_peaks(
     struct rho_accumulator *accumulator, const struct rho_accumulator_points *points,
     struct rho_accumulator_peak *peaks, uint32_t max_peaks, struct rho_accumulator_result *result);
+
+/*
+ * Notes the votes of all points in a picture of the plane. Errors: as rho_accumulator_find_peaks,
+ * and those of rho_votes_picture_init. Cost: as there. Stack: 660 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_accumulator_plane(struct rho_accumulator *accumulator,
+                                                     const struct rho_accumulator_points *points,
+                                                     struct rho_votes_picture *plane);
 
 /*
  * Adds a peak to the list, unless it has fewer votes than min_votes; a full list drops its worst

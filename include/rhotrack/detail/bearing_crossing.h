@@ -46,8 +46,7 @@ enum rho_crossing_fate {
     RHO_CROSSING_SIDES, /* the bearings point to different sides of the base */
     /* delta <= 0: the bearings are parallel, or would cross behind the sensors */
     RHO_CROSSING_APART,
-    RHO_CROSSING_RANGE, /* the bearings cross beyond the largest range of a sensor */
-    RHO_NUM_CROSSING_FATES
+    RHO_CROSSING_RANGE /* the bearings cross beyond the largest range of a sensor */
 };
 
 struct rho_crossing {

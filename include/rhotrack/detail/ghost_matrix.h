@@ -36,12 +36,15 @@
 extern "C" {
 #endif
 
-/* Why a crossing of two bearings is kept as a possible target, or eliminated as a ghost. */
+/*
+ * Why a crossing of two bearings is kept as a possible target, or eliminated as a ghost: its fate
+ * as a crossing, or the rule that prunes it.
+ */
 enum rho_ghost_reason {
-    RHO_GHOST_KEPT = 0,
-    RHO_GHOST_SIDES, /* the bearings point to different sides of the base */
-    RHO_GHOST_APART, /* the bearings diverge: delta <= 0 (step 1.1) */
-    RHO_GHOST_RANGE, /* the bearings meet beyond range_max (step 1.2.1) */
+    RHO_GHOST_KEPT = RHO_CROSSING_MEETS,
+    RHO_GHOST_SIDES = RHO_CROSSING_SIDES,
+    RHO_GHOST_APART = RHO_CROSSING_APART, /* step 1.1 */
+    RHO_GHOST_RANGE = RHO_CROSSING_RANGE, /* step 1.2.1 */
     /* the bearing of b belongs to another bearing of a, which has no other crossing (step 2.3) */
     RHO_GHOST_ROW,
     /* the bearing of a belongs to another bearing of b, which has no other crossing (step 2.5) */

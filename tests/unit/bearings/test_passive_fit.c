@@ -20,10 +20,10 @@ static struct rho_passive_search search = {.passive = &passive, .half_s = 10.0f}
 /* Without bearings the displacement goes to 0 in steps of a tenth of the range, 1000 m. */
 static void a_fit_stays_in_two_ranges_and_steps_at_most_a_tenth(void **state)
 {
-    static const uint8_t no_claims[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
-    float state_m[4] = {5000.0f, -5000.0f, 500.0f, -60.0f};
+    struct rho_passive_candidate track = {.state_m = {5000.0f, -5000.0f, 500.0f, -60.0f}};
+    const float *state_m = track.state_m;
     (void)state;
-    rho_passive_step_to_claims(&search, state_m, no_claims);
+    rho_passive_step_to_claims(&search, &track);
     assert_true(fabsf(state_m[0] - 2000.0f) < 1e-3f && fabsf(state_m[1] + 2000.0f) < 1e-3f);
     assert_true(fabsf(state_m[2] - 400.0f) < 1e-3f && fabsf(state_m[3]) < 1e-3f);
 }

@@ -75,48 +75,10 @@ static inline void fill_plane(void)
     }
 }
 
-/* A cell of the plane; beyond the ends of theta a line continues with the opposite rho. */
-struct cell {
-    int theta, rho;
-};
-
-static inline struct cell wrapped_cell(int theta, int rho)
+static inline int votes_at(int theta, int rho)
 {
-    struct cell cell = {theta, rho};
-    if (theta < 0 || theta >= num_theta()) {
-        cell.theta = theta < 0 ? theta + num_theta() : theta - num_theta();
-        cell.rho = num_rho() - 1 - rho;
-    }
-    return cell;
-}
-
-static inline int votes_at(struct cell cell)
-{
-    if (cell.rho < 0 || cell.rho >= num_rho()) {
-        return 0;
-    }
-    unsigned value = plane[cell.theta * num_rho() + cell.rho];
+    unsigned value = plane[theta * num_rho() + rho];
     return of->votes == RHO_VOTES_SCANS ? count_bits(value) : (int)value;
-}
-
-static inline int is_cell_better(struct cell other, struct cell cell)
-{
-    int is_first = other.theta < cell.theta || (other.theta == cell.theta && other.rho < cell.rho);
-    return votes_at(other) > votes_at(cell) || (votes_at(other) == votes_at(cell) && is_first);
-}
-
-static inline int is_peak(struct cell cell)
-{
-    for (int theta = -1; theta <= 1 && of->neighbours; theta++) {
-        for (int rho = -1; rho <= 1; rho++) {
-            int is_corner = theta != 0 && rho != 0, is_self = theta == 0 && rho == 0;
-            if (!is_self && !(is_corner && of->neighbours == 4) &&
-                is_cell_better(wrapped_cell(cell.theta + theta, cell.rho + rho), cell)) {
-                return 0;
-            }
-        }
-    }
-    return votes_at(cell) >= of->min_votes;
 }
 
 static inline int by_rank(const void *a, const void *b)
@@ -137,13 +99,12 @@ static inline uint32_t list_peaks_of_whole_plane(void)
     fill_plane();
     for (int theta = 0; theta < num_theta(); theta++) {
         for (int rho = 0; rho < num_rho(); rho++) {
-            struct cell cell = {theta, rho};
-            if (votes_at(cell) < of->min_votes || !is_peak(cell)) {
+            if (votes_at(theta, rho) < of->min_votes) {
                 continue;
             }
             assert_true(count < PEAKS_MAX);
             unsigned mask = of->votes == RHO_VOTES_SCANS ? plane[theta * num_rho() + rho] : 0u;
-            expected[count++] = (struct rho_accumulator_peak){(uint32_t)votes_at(cell),
+            expected[count++] = (struct rho_accumulator_peak){(uint32_t)votes_at(theta, rho),
                                                               (uint16_t)theta, (uint16_t)rho, mask};
         }
     }
@@ -154,11 +115,8 @@ static inline uint32_t list_peaks_of_whole_plane(void)
 
 static inline struct rho_accumulator_config paper_cells(void)
 {
-    return (struct rho_accumulator_config){.rho_max_m = 4300.0f,
-                                           .rho_cell_m = 5.0f,
-                                           .theta_cell_rad = 0.001f,
-                                           .min_votes = 3,
-                                           .neighbours = 8};
+    return (struct rho_accumulator_config){
+        .rho_max_m = 4300.0f, .rho_cell_m = 5.0f, .theta_cell_rad = 0.001f, .min_votes = 3};
 }
 
 static inline void init_accumulator_with_config(const struct rho_accumulator_config *config)

@@ -44,12 +44,36 @@ static void peaks_agree_with_the_whole_plane_at_coarse_cells(void **state)
             .rho_cell_m = run % 5 ? 100.0f : 2000.0f,
             .theta_cell_rad = run % 5 ? 0.5f * DEG_RAD : 5.0f * DEG_RAD,
             .votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS,
-            .min_votes = (uint16_t)(1 + run % 6),
-            .neighbours = (uint8_t)(4 * (run % 3))};
+            .min_votes = (uint16_t)(1 + run % 6)};
         unsigned num_scans = 1 + (unsigned)run % RHO_ACCUMULATOR_SCANS_MAX;
         unsigned count = (unsigned)uniform(0.0, run % 3 ? 250.0 : POINTS_MAX);
         scatter_points(num_scans, count, 25000.0);
         expect_same_peaks(&config);
+    }
+}
+
+/* With few points and many, each of which takes another way through the rows. */
+static void a_picture_has_the_votes_of_every_cell(void **state)
+{
+    (void)state;
+    static uint32_t votes[36 * 86];
+    for (int run = 0; run < 8; run++) {
+        struct rho_accumulator_config config = paper_cells();
+        struct rho_votes_picture picture = {.height = 36, .width = 86, .votes = votes};
+        config.rho_cell_m = 100.0f;
+        config.theta_cell_rad = 5.1f * DEG_RAD;
+        config.votes = run % 2 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
+        scatter_points(run % 4 < 2 ? 7 : 12, run < 4 ? 40 : POINTS_MAX, 4000.0);
+        init_accumulator_with_config(&config);
+        assert_int_equal(rho_accumulator_plane(&accumulator, &points, &picture), RHO_OK);
+        fill_plane();
+        for (int i = 0; i < 36 * 86; i++) {
+            assert_int_equal(votes[i], votes_at(i / 86, i % 86));
+        }
+        free(plane);
+        picture.width = 87;
+        assert_int_equal(rho_accumulator_plane(&accumulator, &points, &picture), RHO_ERROR_VALUE);
+        assert_int_equal(rho_accumulator_plane(&accumulator, NULL, &picture), RHO_ERROR_NULL);
     }
 }
 
@@ -154,7 +178,6 @@ static void a_threshold_may_be_a_share_of_the_most_votes(void **state)
         scatter_points(7, run % 2 ? 200 : 1500, 2500.0);
         config.min_votes = 2;
         config.min_share = 0.0f;
-        config.neighbours = run % 3 ? 8 : 0;
         config.votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
         init_accumulator_with_config(&config);
         find_peaks(PEAKS_MAX);
@@ -220,10 +243,9 @@ static void earlier_contents_of_the_accumulator_do_not_matter(void **state)
     uint32_t count = result.num_peaks;
     memcpy(first, peaks, sizeof first);
     for (int run = 0; run < 2; run++) {
-        memset(accumulator.rows, 0xa5, sizeof accumulator.rows);
-        memset(&accumulator.room, 0xa5, sizeof accumulator.room);
-        memset(accumulator.touched, run ? 0x7f : 0xff, sizeof accumulator.touched);
-        memset(accumulator.num_touched, 0xff, sizeof accumulator.num_touched);
+        memset(accumulator.row, 0xa5, sizeof accumulator.row);
+        memset(&accumulator.few, 0xa5, sizeof accumulator.few);
+        memset(accumulator.cells, run ? 0x7f : 0xff, sizeof accumulator.cells);
         find_peaks(64);
         assert_int_equal(result.num_peaks, count);
         assert_memory_equal(peaks, first, count * sizeof peaks[0]);
@@ -266,7 +288,6 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     const uint32_t sizes[] = {0, 1, 16, 512, 4096};
     scatter_points(7, 150, 2500.0);
     config.min_votes = 3;
-    config.neighbours = 0;
     init_accumulator_with_config(&config);
     find_peaks(3000);
     uint32_t all = result.num_peaks, kept = 0;
@@ -313,13 +334,11 @@ static void bad_configs_are_refused(void **state)
     REFUSED(rho_cell_m, INFINITY);
     REFUSED(theta_cell_rad, 9e-5f);
     REFUSED(theta_cell_rad, 3.2f);
-    REFUSED(theta_cell_rad, 3.14159274f); /* a single row cannot have neighbours */
     REFUSED(theta_cell_rad, NAN);
     REFUSED(votes, (enum rho_accumulator_votes)2);
     REFUSED(min_votes, 0);
     REFUSED(min_share, 1.1f);
     REFUSED(min_share, NAN);
-    REFUSED(neighbours, 6);
     REFUSED(no_pruning, 2);
     uint16_t rows, cells;
     config.theta_cell_rad = 1.01e-4f;
@@ -388,6 +407,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(peaks_agree_with_the_whole_plane_at_the_papers_cells),
         cmocka_unit_test(peaks_agree_with_the_whole_plane_at_coarse_cells),
+        cmocka_unit_test(a_picture_has_the_votes_of_every_cell),
         cmocka_unit_test(a_line_is_found_at_its_theta_and_rho),
         cmocka_unit_test(a_line_at_the_end_of_theta_is_one_peak),
         cmocka_unit_test(a_scan_votes_once_in_a_cell_and_points_vote_each),

@@ -114,7 +114,6 @@ static struct rho_accumulator_config random_config(double half_m, int is_paper, 
     config.votes = random_below(3) ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
     config.min_votes = (uint16_t)(1 + random_below((int)num_scans + 1));
     config.min_share = random_below(3) ? 0.0f : (float)uniform(0.0, 1.0);
-    config.neighbours = (uint8_t)(4 * random_below(3));
     return config;
 }
 
@@ -165,7 +164,6 @@ static void targets_among_clutter_keep_their_peaks(void **state)
     for (int run = 0; run < 60; run++) {
         add_targets_and_clutter(7, 3, 9 + (unsigned)(run % 3) * 60, 2900.0);
         config.min_votes = (uint16_t)(3 + run % 5);
-        config.neighbours = (uint8_t)(4 * (run % 3));
         expect_same_without_pruning(config, PEAKS_MAX);
         assert_true(result.num_peaks > 0);
         assert_int_equal(result.votes_max, 7);
@@ -194,7 +192,6 @@ static void a_line_with_points_at_its_ends_alone_is_kept(void **state)
             scan_end[scan] = scan + 1;
         }
         config.min_votes = 6;
-        config.neighbours = (uint8_t)(4 * (run % 3));
         expect_same_without_pruning(config, PEAKS_MAX);
         /* for the other lines a border of cells lies between the ends */
         found += result.num_peaks > 0;

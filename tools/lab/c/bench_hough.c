@@ -54,7 +54,7 @@ struct figures {
     double votes; /* number of points times cells of theta */
     double us, plain_us, dense_us;
     double bytes, dense_bytes;
-    double counters_bytes; /* memory of counters in use: four rows of rho */
+    double counters_bytes; /* memory of counters in use: a row of rho */
     struct hough_cost opencv;
 };
 
@@ -127,7 +127,6 @@ static void init_accumulator_of_cell_size(struct rho_accumulator *accumulator, e
                                             .rho_cell_m = kinds[kind].rho_cell_m,
                                             .theta_cell_rad = kinds[kind].theta_cell_rad,
                                             .min_votes = HOUGH_MIN_VOTES,
-                                            .neighbours = 8,
                                             .no_pruning = (uint8_t)no_pruning};
     must_succeed(rho_accumulator_init(accumulator, sizeof *accumulator, &config), "accumulator");
 }
@@ -148,7 +147,7 @@ static struct figures measure_job_and_rivals(struct rho_accumulator *accumulator
     figures.opencv = hough_opencv_cost(accumulator, &cloud, kinds[job->kind].opencv_rounds);
     double points_bytes = 2.0 * sizeof(float) * job->points;
     figures.bytes = sizeof *accumulator + points_bytes;
-    figures.counters_bytes = 4.0 * (accumulator->rho_cells + RHO_ACCUMULATOR_PADDING);
+    figures.counters_bytes = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
     figures.dense_bytes = (double)hough_dense_bytes(accumulator) + points_bytes;
     return figures;
 }

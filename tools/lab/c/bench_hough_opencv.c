@@ -39,20 +39,12 @@ static void vote_in_dense_plane(const struct rho_accumulator *accumulator,
     }
 }
 
-/* Counts cells with enough votes and no greater neighbour; the edges of the plane are left out. */
+/* Counts cells with enough votes. */
 static unsigned count_peaks(const uint16_t *plane, size_t width, size_t height)
 {
     unsigned count = 0;
-    for (size_t theta = 1; theta + 1 < height; theta++) {
-        const uint16_t *row = plane + theta * width;
-        for (size_t rho = 1; rho + 1 < width; rho++) {
-            unsigned votes = row[rho] ? count_bits(row[rho]) : 0u, most = 0;
-            for (size_t i = 0; i < 9 && votes >= HOUGH_MIN_VOTES; i++) {
-                unsigned other = count_bits(row[rho + i % 3 - 1 + (i / 3) * width - width]);
-                most = other > most ? other : most;
-            }
-            count += votes >= HOUGH_MIN_VOTES && votes >= most;
-        }
+    for (size_t i = 0; i < width * height; i++) {
+        count += plane[i] && count_bits(plane[i]) >= HOUGH_MIN_VOTES;
     }
     return count;
 }
