@@ -8,14 +8,9 @@
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 
-static int is_ready(const struct rho_hypotheses *pool)
-{
-    return pool->magic == RHO_HYPOTHESES_MAGIC;
-}
-
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
 {
-    return is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
+    return slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
 }
 
 uint16_t rho_hypotheses_pop_node(struct rho_hypotheses *pool)
@@ -54,9 +49,6 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
 enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_size,
                                     const struct rho_imm_model *model)
 {
-    if (!pool || !model) {
-        return RHO_ERROR_NULL;
-    }
     if (object_size != sizeof *pool) {
         return RHO_ERROR_SIZE;
     }
@@ -78,9 +70,6 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_s
 enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
                                          const struct rho_imm_model *model)
 {
-    if (!pool || !model) {
-        return RHO_ERROR_NULL;
-    }
     struct rho_imm_model kept = *model;
     kept.calm_s = pool->model.calm_s;
     if (!rho_imm_model_is_usable(&kept)) {
@@ -102,12 +91,6 @@ void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s)
 enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rho_kalman *estimate,
                                     int64_t time_us, uint16_t *slot)
 {
-    if (!pool || !estimate || !slot) {
-        return RHO_ERROR_NULL;
-    }
-    if (!is_ready(pool)) {
-        return RHO_ERROR_STATE;
-    }
     uint16_t found = 0;
     while (found < RHO_HYPOTHESES_SLOTS && pool->num_of[found] > 0) {
         found++;
@@ -132,7 +115,7 @@ enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rh
 
 void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
 {
-    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return;
     }
     for (unsigned i = pool->num_of[slot]; i > 0; i--) {
@@ -143,7 +126,7 @@ void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
 
 unsigned rho_hypotheses_count(const struct rho_hypotheses *pool, uint16_t slot)
 {
-    return pool && rho_hypotheses_is_open(pool, slot) ? pool->num_of[slot] : 0;
+    return rho_hypotheses_is_open(pool, slot) ? pool->num_of[slot] : 0;
 }
 
 const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool, uint16_t slot,
@@ -197,9 +180,6 @@ float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot)
 static enum rho_status predict_slot(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
                                     int is_without_noise)
 {
-    if (!pool) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
@@ -377,9 +357,6 @@ enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t sl
 {
     struct moment_sums sums = {.share = 0.0f};
     int is_first = 1;
-    if (!pool || !estimate) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }

@@ -146,7 +146,7 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
                               float log_pd, const struct rho_hypotheses_clutter *clutter,
                               float *best_weight_nat)
 {
-    if (!pool || !seen || !clutter || !best_weight_nat || !rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
     const struct offered_plot offer = {
@@ -386,9 +386,6 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
                                       const struct rho_hypotheses_scan *scan,
                                       struct rho_hypotheses_outcome *outcome)
 {
-    if (!pool || !scan || !outcome) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
@@ -420,9 +417,6 @@ enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot
                                       const struct rho_imm_plot *seen, int64_t time_us)
 {
     enum rho_status status = RHO_ERROR_VALUE;
-    if (!pool || !seen) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
@@ -458,9 +452,6 @@ enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint1
 {
     enum rho_status status = RHO_ERROR_VALUE;
     float gains_nat[RHO_HYPOTHESES_OF_TRACK] = {0.0f}, least_nat = 0.0f;
-    if (!pool) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }

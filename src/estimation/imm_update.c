@@ -229,9 +229,6 @@ static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm
 enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *model,
                                const struct rho_imm_plot *seen, const struct rho_imm_match *match)
 {
-    if (!imm || !model || !seen || !match) {
-        return RHO_ERROR_NULL;
-    }
     const int opens = seen->position.has_z && !has_estimate_on_axis(imm, RHO_Z);
     const int num_axes = seen->position.has_z && !opens ? 3 : 2;
     const int is_simple = !imm->is_coupled && seen->position.is_isotropic &&
@@ -265,9 +262,6 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
     struct rho_kalman at;
     struct rho_kalman_bearing bearings[2];
     float variance[2], projected[RHO_KALMAN_STATES];
-    if (!imm || !gain_nat) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }

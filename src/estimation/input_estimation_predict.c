@@ -2,7 +2,6 @@
 #include "rhotrack/detail/input_estimation.h"
 
 #include <float.h>
-#include <stddef.h>
 #include <string.h>
 
 #include "input_sensitivity.h"
@@ -23,25 +22,21 @@ float rho_input_threshold_sigmas(float confidence)
 
 void rho_input_config_default(struct rho_input_config *config)
 {
-    static const struct rho_input_config paper = {.is_estimated = 1,
-                                                  .model = RHO_INPUT_LITERAL,
-                                                  .sigma_mps2 = 22.36068f, /* the root of 500 */
-                                                  .threshold = 1.959964f,
-                                                  .gamma = 1.0f,
-                                                  .noise_density = 0.0f,
-                                                  .noise_m = 1.0f,
-                                                  .noise_mps = 1.0f,
-                                                  .velocity_variance = 490000.0f,
-                                                  .initial_variance = 0.0f};
-
-    if (config != NULL) {
-        *config = paper;
-    }
+    *config = (struct rho_input_config){
+        .is_estimated = 1,
+        .model = RHO_INPUT_LITERAL,
+        .sigma_mps2 = 22.36068f, /* the root of 500 */
+        .threshold = 1.959964f,
+        .gamma = 1.0f,
+        .noise_m = 1.0f,
+        .noise_mps = 1.0f,
+        .velocity_variance = 490000.0f,
+    };
 }
 
 int rho_input_is_usable(const struct rho_input_config *config)
 {
-    return config != NULL && config->model < RHO_NUM_INPUT_MODELS &&
+    return config->model < RHO_NUM_INPUT_MODELS &&
            rho_is_within(config->sigma_mps2, 1.0e-3f, 1.0e5f) && config->threshold > 0.0f &&
            config->threshold <= FLT_MAX && config->gamma > 0.0f && config->gamma <= 1.0f &&
            rho_is_within(config->noise_density, 0.0f, FLT_MAX) &&
@@ -117,9 +112,6 @@ void rho_input_gate_estimate(const struct rho_input *input, struct rho_kalman *e
 enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_config *config,
                                 const struct rho_kalman *estimate)
 {
-    if (input == NULL || config == NULL || estimate == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_input_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
@@ -208,9 +200,6 @@ static enum rho_status predict_inputs(struct rho_input *input,
 enum rho_status rho_input_predict(struct rho_input *input, const struct rho_input_config *config,
                                   float dt_s)
 {
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
     const struct rho_input before = *input;
     enum rho_status status = rho_kalman_predict(&input->bare, dt_s, config->noise_density);
     if (status == RHO_OK && dt_s > 0.0f) {

@@ -123,9 +123,6 @@ enum rho_status rho_input_update_element(struct rho_input *input,
                                          const struct rho_input_config *config, int element,
                                          float value, float variance)
 {
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (element < 0 || element >= NUM_STATES) {
         return RHO_ERROR_VALUE;
     }
@@ -159,9 +156,6 @@ enum rho_status rho_input_update_element(struct rho_input *input,
 enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,
                                      const float row[6], float innovation, float variance)
 {
-    if (input == NULL || config == NULL || row == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!config->is_estimated) {
         return rho_kalman_update_row(&input->bare, row, innovation, variance, NULL);
     }

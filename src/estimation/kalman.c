@@ -49,18 +49,12 @@ static inline int predict_axis(struct axis_prediction *next, const struct rho_ka
 
 void rho_kalman_init(struct rho_kalman *kalman)
 {
-    static const struct rho_kalman nothing_measured = {.state = {0.0f}, .covariance = {0.0f}};
-    if (kalman != NULL) {
-        *kalman = nothing_measured;
-    }
+    *kalman = (struct rho_kalman){.state = {0.0f}};
 }
 
 enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float position_m,
                                      float position_variance, float velocity_variance)
 {
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (axis < 0 || axis >= RHO_AXES || !rho_is_finite(position_m) ||
         !is_valid_variance(position_variance) || !is_valid_variance(velocity_variance)) {
         return RHO_ERROR_VALUE;
@@ -90,9 +84,6 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
 {
     const float noise = dt_s > 0.0f ? noise_density * dt_s : 0.0f;
     struct axis_prediction next[RHO_AXES];
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!(dt_s >= -RHO_KALMAN_STEP_MAX_S && dt_s <= RHO_KALMAN_STEP_MAX_S &&
           noise_density >= 0.0f && noise_density <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
@@ -142,9 +133,6 @@ static int can_add_variance(float variance, float added)
 enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance,
                                      float velocity_variance)
 {
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!(position_variance >= 0.0f && velocity_variance >= 0.0f)) {
         return RHO_ERROR_VALUE;
     }
@@ -171,9 +159,6 @@ static void floor_variances(struct rho_kalman *kalman)
 enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
                                   float variance, float *nis)
 {
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (element < 0 || element >= RHO_KALMAN_STATES || !rho_is_finite(value) ||
         !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
@@ -191,9 +176,6 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
 enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
                                       float innovation, float variance, float *nis)
 {
-    if (kalman == NULL || row == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_is_finite(innovation) || !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
     }
@@ -275,9 +257,6 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
                                            const struct rho_measurement *measurement,
                                            float velocity_variance)
 {
-    if (kalman == NULL || measurement == NULL) {
-        return RHO_ERROR_NULL;
-    }
     const int num_axes = measurement->has_z ? RHO_AXES : 2;
     if (!rho_are_finite(measurement->place_m, (size_t)num_axes)) {
         return RHO_ERROR_VALUE;
@@ -353,9 +332,6 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                              float variance)
 {
     struct rho_kalman_row seen;
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_kalman_linearise_rate(kalman, sensor, rate_mps, variance, &seen) ||
         !rho_kalman_can_unfold(kalman, sensor, &seen)) {
         return RHO_OK;
@@ -392,9 +368,6 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
                                           float bearing_rad, float sigma_rad)
 {
     struct rho_kalman_bearing seen;
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }

@@ -98,8 +98,8 @@ void rho_input_config_default(struct rho_input_config *config);
 int rho_input_is_usable(const struct rho_input_config *config);
 
 /*
- * Starts from an estimate, without input. Errors: NULL, CONFIG (config not usable; other calls do
- * not check it). Constant cost. Stack: 200 bytes.
+ * Starts from an estimate, without input. Errors: CONFIG (config not usable; other calls do not
+ * check it). Constant cost. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_start(struct rho_input *input,
                                                const struct rho_input_config *config,
