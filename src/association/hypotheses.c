@@ -265,25 +265,25 @@ static inline void add_deviation(struct moment_sums *sums, const struct rho_imm 
     sums->deviation[i] += s->scaled[i] + m->scaled[i];
 }
 
-/* Adds the product of both models' deviations i and j. */
-static inline void add_product(float *restrict out, const struct weighted_model *restrict s,
+/*
+ * Adds element i, j of the covariance: the product of both models' deviations, and their own, which
+ * most hypotheses have within an axis alone.
+ */
+static inline void add_product(float *restrict out, const struct rho_imm *restrict imm,
+                               const struct weighted_model *restrict s,
                                const struct weighted_model *restrict m, int i, int j)
 {
-    out[RHO_AT(i, j)] += s->scaled[i] * s->deviation[j] + m->scaled[i] * m->deviation[j];
-}
-
-/* Adds both models' covariances of elements i and j. */
-static inline void add_covariance(float *restrict out, const struct rho_imm *restrict imm, float s,
-                                  float m, int i, int j)
-{
-    out[RHO_AT(i, j)] +=
-        s * imm->steady.covariance[RHO_AT(i, j)] + m * imm->covariance[RHO_AT(i, j)];
+    float *sum = &out[RHO_AT(i, j)];
+    *sum += s->scaled[i] * s->deviation[j] + m->scaled[i] * m->deviation[j];
+    if (i % RHO_AXES == j % RHO_AXES || imm->is_coupled) {
+        *sum += s->share * imm->steady.covariance[RHO_AT(i, j)] +
+                m->share * imm->covariance[RHO_AT(i, j)];
+    }
 }
 
 /*
  * Adds both models of one hypothesis, weighted by its share, to the sums. Written out over the
- * elements, as a loop would take three times as long. The axes of most hypotheses are coupled by
- * their deviations alone.
+ * elements, as a loop would take three times as long.
  */
 static void add_hypothesis(struct moment_sums *sums, const struct rho_imm *imm, float share)
 {
@@ -295,55 +295,30 @@ static void add_hypothesis(struct moment_sums *sums, const struct rho_imm *imm, 
     add_deviation(sums, imm, &s, &m, 1);
     add_deviation(sums, imm, &s, &m, 3);
     add_deviation(sums, imm, &s, &m, 4);
-    add_product(out, &s, &m, 0, 0);
-    add_product(out, &s, &m, 1, 1);
-    add_product(out, &s, &m, 3, 0);
-    add_product(out, &s, &m, 3, 3);
-    add_product(out, &s, &m, 4, 1);
-    add_product(out, &s, &m, 4, 4);
-    add_product(out, &s, &m, 1, 0);
-    add_product(out, &s, &m, 3, 1);
-    add_product(out, &s, &m, 4, 0);
-    add_product(out, &s, &m, 4, 3);
-    add_covariance(out, imm, s.share, m.share, 0, 0);
-    add_covariance(out, imm, s.share, m.share, 1, 1);
-    add_covariance(out, imm, s.share, m.share, 3, 0);
-    add_covariance(out, imm, s.share, m.share, 3, 3);
-    add_covariance(out, imm, s.share, m.share, 4, 1);
-    add_covariance(out, imm, s.share, m.share, 4, 4);
-    if (imm->is_coupled) {
-        add_covariance(out, imm, s.share, m.share, 1, 0);
-        add_covariance(out, imm, s.share, m.share, 3, 1);
-        add_covariance(out, imm, s.share, m.share, 4, 0);
-        add_covariance(out, imm, s.share, m.share, 4, 3);
-    }
+    add_product(out, imm, &s, &m, 0, 0);
+    add_product(out, imm, &s, &m, 1, 1);
+    add_product(out, imm, &s, &m, 3, 0);
+    add_product(out, imm, &s, &m, 3, 3);
+    add_product(out, imm, &s, &m, 4, 1);
+    add_product(out, imm, &s, &m, 4, 4);
+    add_product(out, imm, &s, &m, 1, 0);
+    add_product(out, imm, &s, &m, 3, 1);
+    add_product(out, imm, &s, &m, 4, 0);
+    add_product(out, imm, &s, &m, 4, 3);
     if (sums->has_height) {
         add_deviation(sums, imm, &s, &m, 2);
         add_deviation(sums, imm, &s, &m, 5);
-        add_product(out, &s, &m, 2, 2);
-        add_product(out, &s, &m, 5, 2);
-        add_product(out, &s, &m, 5, 5);
-        add_product(out, &s, &m, 2, 0);
-        add_product(out, &s, &m, 2, 1);
-        add_product(out, &s, &m, 3, 2);
-        add_product(out, &s, &m, 4, 2);
-        add_product(out, &s, &m, 5, 0);
-        add_product(out, &s, &m, 5, 1);
-        add_product(out, &s, &m, 5, 3);
-        add_product(out, &s, &m, 5, 4);
-        add_covariance(out, imm, s.share, m.share, 2, 2);
-        add_covariance(out, imm, s.share, m.share, 5, 2);
-        add_covariance(out, imm, s.share, m.share, 5, 5);
-    }
-    if (sums->has_height && imm->is_coupled) {
-        add_covariance(out, imm, s.share, m.share, 2, 0);
-        add_covariance(out, imm, s.share, m.share, 2, 1);
-        add_covariance(out, imm, s.share, m.share, 3, 2);
-        add_covariance(out, imm, s.share, m.share, 4, 2);
-        add_covariance(out, imm, s.share, m.share, 5, 0);
-        add_covariance(out, imm, s.share, m.share, 5, 1);
-        add_covariance(out, imm, s.share, m.share, 5, 3);
-        add_covariance(out, imm, s.share, m.share, 5, 4);
+        add_product(out, imm, &s, &m, 2, 2);
+        add_product(out, imm, &s, &m, 5, 2);
+        add_product(out, imm, &s, &m, 5, 5);
+        add_product(out, imm, &s, &m, 2, 0);
+        add_product(out, imm, &s, &m, 2, 1);
+        add_product(out, imm, &s, &m, 3, 2);
+        add_product(out, imm, &s, &m, 4, 2);
+        add_product(out, imm, &s, &m, 5, 0);
+        add_product(out, imm, &s, &m, 5, 1);
+        add_product(out, imm, &s, &m, 5, 3);
+        add_product(out, imm, &s, &m, 5, 4);
     }
     sums->share += share;
     sums->maneuver += m.share;
