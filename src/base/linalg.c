@@ -72,36 +72,21 @@ float rho_linalg_log_determinant(int n, const float *l)
 }
 
 /* NIS by S = L D L^T: pivots, as a determinant cancels where errors are correlated. */
-enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
-                                float *log_det)
+enum rho_status rho_linalg_nis(int num, const float *s, const float *d, float *distance2,
+                               float *log_det)
 {
     const float l10 = s[1] / s[0], pivot1 = s[2] - l10 * s[1], y1 = d[1] - l10 * d[0];
-    const float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1;
-    if (!(is_pivot(s[0]) && is_pivot(pivot1) && rho_is_finite(distance))) {
-        return RHO_ERROR_SINGULAR;
+    float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1, det = s[0] * pivot1;
+    int is_good = is_pivot(s[0]) && is_pivot(pivot1);
+    if (num > 2) {
+        const float l20 = s[3] / s[0], c21 = s[4] - l20 * s[1], l21 = c21 / pivot1;
+        const float pivot2 = s[5] - l20 * s[3] - l21 * c21, y2 = d[2] - l20 * d[0] - l21 * y1;
+        distance += y2 * y2 / pivot2;
+        det *= pivot2;
+        is_good = is_good && is_pivot(pivot2);
     }
-    const float logarithm = rho_log(s[0] * pivot1);
-    if (!rho_is_finite(logarithm)) {
-        return RHO_ERROR_SINGULAR;
-    }
-    *distance2 = distance;
-    *log_det = logarithm;
-    return RHO_OK;
-}
-
-enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *distance2,
-                                float *log_det)
-{
-    const float l10 = s[1] / s[0], l20 = s[3] / s[0], pivot1 = s[2] - l10 * s[1];
-    const float c21 = s[4] - l20 * s[1], l21 = c21 / pivot1;
-    const float pivot2 = s[5] - l20 * s[3] - l21 * c21;
-    const float y1 = d[1] - l10 * d[0], y2 = d[2] - l20 * d[0] - l21 * y1;
-    const float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1 + y2 * y2 / pivot2;
-    if (!(is_pivot(s[0]) && is_pivot(pivot1) && is_pivot(pivot2) && rho_is_finite(distance))) {
-        return RHO_ERROR_SINGULAR;
-    }
-    const float logarithm = rho_log(s[0] * pivot1 * pivot2);
-    if (!rho_is_finite(logarithm)) {
+    const float logarithm = rho_log(det);
+    if (!(is_good && rho_is_finite(distance) && rho_is_finite(logarithm))) {
         return RHO_ERROR_SINGULAR;
     }
     *distance2 = distance;

@@ -66,14 +66,12 @@ void rho_linalg_backward(int n, const float *l, float *b);
 float rho_linalg_log_determinant(int n, const float *l);
 
 /*
- * Squared Mahalanobis distance d^T S^-1 d and ln det S for 2 x 2 (s: 3 floats) and 3 x 3 (s: 6
- * floats). Errors: SINGULAR (S is not positive definite, or a result is not finite); outputs
- * untouched. Cost: 25 and 60 operations and a logarithm.
+ * Squared Mahalanobis distance d^T S^-1 d and ln det S in num = 2 or 3 dimensions. Errors: SINGULAR
+ * (S is not positive definite, or a result is not finite); outputs untouched. Cost: 25 or 60
+ * operations and a logarithm.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
-                                               float *log_det);
-RHO_MUST_CHECK enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *distance2,
-                                               float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_nis(int num, const float *s, const float *d,
+                                              float *distance2, float *log_det);
 
 /*
  * One scalar Kalman update of a six-element state x with covariance p (21 floats): `element` of x

@@ -228,7 +228,7 @@ static void nis_of_two_dimensions_agrees_with_the_reference(void **state)
         const struct gate2_vector *v = &gate2_vectors[i];
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
-        assert_int_equal(rho_linalg_nis2(v->s, v->d, distance2, log_det), RHO_OK);
+        assert_int_equal(rho_linalg_nis(2, v->s, v->d, distance2, log_det), RHO_OK);
         assert_near_reference(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
@@ -242,7 +242,7 @@ static void nis_of_three_dimensions_agrees_with_the_reference(void **state)
         const struct gate3_vector *v = &gate3_vectors[i];
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
-        assert_int_equal(rho_linalg_nis3(v->s, v->d, distance2, log_det), RHO_OK);
+        assert_int_equal(rho_linalg_nis(3, v->s, v->d, distance2, log_det), RHO_OK);
         assert_near_reference(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
@@ -257,10 +257,10 @@ static void nis_of_diagonal_matrices_is_exact(void **state)
     float distance2, log_det;
 
     (void)state;
-    assert_int_equal(rho_linalg_nis2(s2, d2, &distance2, &log_det), RHO_OK);
+    assert_int_equal(rho_linalg_nis(2, s2, d2, &distance2, &log_det), RHO_OK);
     assert_true(distance2 == 13.0f);
     assert_float_equal(log_det, log(4.0), 1e-6);
-    assert_int_equal(rho_linalg_nis3(s3, d3, &distance2, &log_det), RHO_OK);
+    assert_int_equal(rho_linalg_nis(3, s3, d3, &distance2, &log_det), RHO_OK);
     assert_true(distance2 == 6.0f);
     assert_float_equal(log_det, log(64.0), 1e-6);
 }
@@ -270,9 +270,9 @@ static void assert_nis_refused(const float s[6], const float d[3], int try2)
     float distance2 = GUARD, log_det = GUARD;
 
     if (try2) {
-        assert_int_equal(rho_linalg_nis2(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
+        assert_int_equal(rho_linalg_nis(2, s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
     }
-    assert_int_equal(rho_linalg_nis3(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
+    assert_int_equal(rho_linalg_nis(3, s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
     assert_true(distance2 == GUARD && log_det == GUARD);
 }
 
