@@ -262,9 +262,6 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
     struct rho_kalman at;
     struct rho_kalman_bearing bearings[2];
     float variance[2], projected[RHO_KALMAN_STATES];
-    if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
-        return RHO_ERROR_VALUE;
-    }
     load_kinematics(&at, imm->state, imm->covariance);
     *gain_nat = 0.0f;
     if (!rho_kalman_linearise_bearing(&imm->steady, x_m, y_m, bearing_rad, sigma_rad,

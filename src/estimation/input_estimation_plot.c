@@ -128,9 +128,6 @@ enum rho_status rho_input_update_bearing(struct rho_input *input,
 {
     struct rho_kalman corrected;
     struct rho_kalman_bearing seen;
-    if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
-        return RHO_ERROR_VALUE;
-    }
     rho_input_estimate(input, &corrected);
     if (!rho_kalman_linearise_bearing(&corrected, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
         return RHO_OK;
