@@ -4,6 +4,8 @@
 #include <float.h>
 #include <stddef.h>
 
+#include "rhotrack/detail/angle.h"
+
 /* Indices in the triangle: variance of element i, cov(velocity of axis a, position of axis b). */
 #define DIAGONAL(i) RHO_AT(i, i)
 #define VELOCITY_POSITION(a, b) (RHO_TRIANGLE(RHO_AXES + (a)) + (b))
@@ -343,24 +345,30 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
                                  float bearing_rad, float sigma_rad,
                                  struct rho_kalman_bearing *seen)
 {
-    if (!rho_measurement_bearing_row(kalman->state, x_m, y_m, bearing_rad, seen->row, &seen->off_m,
-                                     &seen->range_m)) {
+    const float dx_m = kalman->state[RHO_X] - x_m, dy_m = kalman->state[RHO_Y] - y_m;
+    const float range2_m2 = dx_m * dx_m + dy_m * dy_m;
+    if (!(range2_m2 >= RHO_RANGE_LEAST_M * RHO_RANGE_LEAST_M) || !(range2_m2 <= FLT_MAX)) {
         return 0;
     }
+    const float range_m = rho_sqrt(range2_m2), s = -dy_m / range_m, c = dx_m / range_m;
     /*
      * The second derivative of the bearing is 1 / range^2 (along times across the line of sight):
      * for errors a along and c across, the linearisation leaves out a c / range metres, with the
      * variance (var a var c + cov^2) / range^2.
      */
     const float *p = kalman->covariance;
-    const float xx = p[RHO_XX], xy = p[RHO_YX], yy = p[RHO_YY], range_m = seen->range_m;
-    const float s = seen->row[RHO_X], c = seen->row[RHO_Y]; /* across (s, c), along (c, -s) */
+    const float xx = p[RHO_XX], xy = p[RHO_YX], yy = p[RHO_YY]; /* across (s, c), along (c, -s) */
     const float across = xx * s * s + 2.0f * xy * s * c + yy * c * c;
     const float along = xx * c * c - 2.0f * xy * s * c + yy * s * s;
     const float both = (xx - yy) * s * c + xy * (c * c - s * s);
     const float sigma_m = sigma_rad * range_m;
-    seen->variance_m2 = sigma_m * sigma_m + ((across / range_m) * (along / range_m) +
-                                             (both / range_m) * (both / range_m));
+    *seen = (struct rho_kalman_bearing){
+        .row = {s, c},
+        .off_m = range_m * rho_angle_difference(bearing_rad, rho_atan2(dy_m, dx_m)),
+        .variance_m2 = sigma_m * sigma_m + ((across / range_m) * (along / range_m) +
+                                            (both / range_m) * (both / range_m)),
+        .range_m = range_m,
+    };
     return 1;
 }
 

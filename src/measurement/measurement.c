@@ -347,24 +347,6 @@ float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_m
     return rho_log(2.0f * v_max_mps / sensor->range_rate_span_mps);
 }
 
-int rho_measurement_bearing_row(const float state[6], float x_m, float y_m, float bearing_rad,
-                                float row[6], float *off_m, float *range_m)
-{
-    float dx_m = state[0] - x_m, dy_m = state[1] - y_m;
-    float range2_m2 = dx_m * dx_m + dy_m * dy_m;
-    if (!(range2_m2 >= RHO_RANGE_LEAST_M * RHO_RANGE_LEAST_M) || !(range2_m2 <= FLT_MAX)) {
-        return 0;
-    }
-    *range_m = rho_sqrt(range2_m2);
-    *off_m = *range_m * rho_angle_difference(bearing_rad, rho_atan2(dy_m, dx_m));
-    for (int i = 2; i < 6; i++) {
-        row[i] = 0.0f;
-    }
-    row[0] = -dy_m / *range_m;
-    row[1] = dx_m / *range_m;
-    return 1;
-}
-
 int rho_measurement_covers(const struct rho_sensor *sensor, float sector_from_rad,
                            float sector_to_rad, float x_m, float y_m)
 {

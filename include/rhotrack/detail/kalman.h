@@ -165,17 +165,17 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *k
 
 /* A bearing as a scalar measurement, linearised, in metres across the line of sight. */
 struct rho_kalman_bearing {
-    float row[RHO_KALMAN_STATES];
-    float off_m;       /* innovation: measured minus predicted */
-    float variance_m2; /* variance of the noise, and of the linearisation's error */
+    float row[RHO_KALMAN_STATES]; /* (-sin, cos) of x and y */
+    float off_m;                  /* innovation: measured minus predicted */
+    float variance_m2;            /* variance of the noise, and of the linearisation's error */
     float range_m;
 };
 
 /*
  * Linearises a bearing at an estimate, into *seen; the variance includes the error of the
  * linearisation for an uncertain position. Returns 0, and fills nothing, if the estimate is nearer
- * than a metre to the place.
- * Cost: an arctangent, a square root, two divisions. Stack: 96 bytes.
+ * than a metre to the place, or not finite. Cost: an arctangent, a square root, two
+ * divisions. Stack: 96 bytes.
  */
 int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, float y_m,
                                  float bearing_rad, float sigma_rad,
