@@ -239,7 +239,7 @@ float rho_linalg_project6(const float p[21], const float row[6], float projected
 }
 
 enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
-                                       float innovation, float variance, float *nis)
+                                       float innovation, float variance)
 {
     float projected[6], gain[6];
     const float predicted = rho_linalg_project6(p, row, projected), sum = predicted + variance;
@@ -252,9 +252,6 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
         return RHO_ERROR_VALUE;
     }
     reduce_covariance(p, projected, gain);
-    if (nis != NULL) {
-        *nis = innovation * inverse * innovation;
-    }
     return RHO_OK;
 }
 

@@ -89,7 +89,7 @@ static enum rho_status update_position_along(struct rho_imm *imm, const float di
         innovation_m[i] = place_m[i] - imm->steady.state[i];
     }
     enum rho_status status =
-        rho_kalman_update_row(&imm->steady, row, dot_position(direction, innovation_m), noise, 0);
+        rho_kalman_update_row(&imm->steady, row, dot_position(direction, innovation_m), noise);
     if (status != RHO_OK) {
         return status;
     }
@@ -275,7 +275,7 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
         rho_linalg_project6(at.covariance, bearings[1].row, projected) + bearings[1].variance_m2;
     imm->is_coupled = 1;
     enum rho_status status = rho_kalman_update_row(&imm->steady, bearings[0].row, bearings[0].off_m,
-                                                   bearings[0].variance_m2, 0);
+                                                   bearings[0].variance_m2);
     if (status == RHO_OK) {
         status = rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2,
                                        bearings[1].row, bearings[1].off_m, bearings[1].variance_m2);

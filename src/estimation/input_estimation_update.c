@@ -71,7 +71,7 @@ static enum rho_status update_all(struct rho_input *input, const struct scalar_m
     }
     const enum rho_status status =
         scalar->row
-            ? rho_kalman_update_row(&next.bare, scalar->row, scalar->off, scalar->noise, 0)
+            ? rho_kalman_update_row(&next.bare, scalar->row, scalar->off, scalar->noise)
             : rho_kalman_update(&next.bare, scalar->element, scalar->value, scalar->noise, NULL);
     if (status == RHO_OK) {
         *input = next;
@@ -157,7 +157,7 @@ enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_i
                                      const float row[6], float innovation, float variance)
 {
     if (!config->is_estimated) {
-        return rho_kalman_update_row(&input->bare, row, innovation, variance, NULL);
+        return rho_kalman_update_row(&input->bare, row, innovation, variance);
     }
     struct scalar_measurement scalar = {.row = row, .noise = variance, .off = innovation};
     scalar.variance = rho_kalman_floored(variance) +

@@ -176,14 +176,14 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
 }
 
 enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
-                                      float innovation, float variance, float *nis)
+                                      float innovation, float variance)
 {
     if (!rho_is_finite(innovation) || !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
     }
     const float noise = rho_kalman_floored(variance);
     const enum rho_status status =
-        rho_linalg_update6_row(kalman->state, kalman->covariance, row, innovation, noise, nis);
+        rho_linalg_update6_row(kalman->state, kalman->covariance, row, innovation, noise);
     if (status == RHO_OK) {
         floor_variances(kalman);
     }
@@ -338,7 +338,7 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
         !rho_kalman_can_unfold(kalman, sensor, &seen)) {
         return RHO_OK;
     }
-    return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance, NULL);
+    return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance);
 }
 
 int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, float y_m,
@@ -382,5 +382,5 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
     if (!rho_kalman_linearise_bearing(kalman, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
         return RHO_OK;
     }
-    return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2, NULL);
+    return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2);
 }

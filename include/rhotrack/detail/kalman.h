@@ -116,7 +116,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int 
  * Errors: as rho_kalman_update. Cost: about 590 instructions. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
-                                                     float innovation, float variance, float *nis);
+                                                     float innovation, float variance);
 
 /*
  * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened

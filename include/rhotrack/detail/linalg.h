@@ -93,7 +93,7 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21
  * Cost: about 530 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
-                                                      float innovation, float variance, float *nis);
+                                                      float innovation, float variance);
 
 /* projected := p row; returns row . p row, the variance of row . x. Cost: about 90 instructions. */
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6]);
