@@ -122,10 +122,7 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
                   struct rho_gate_result *result)
 {
     /* the largest sigma: at high elevation the noise of the height is partly horizontal */
-    float offset_s = (float)plot->offset_us * 1e-6f, sigma_m = plot->sigma_range_m;
-    if (plot->sigma_cross_m > sigma_m) {
-        sigma_m = plot->sigma_cross_m;
-    }
+    float offset_s = (float)plot->offset_us * 1e-6f, sigma_m = rho_plot_sigma_m(plot);
     if ((gate->measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m;
     }
