@@ -74,9 +74,12 @@ static enum rho_status update_independent_axes(struct rho_imm *imm, int num_axes
     return rho_is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
 
-static float dot_position(const float *row, const float *state)
+/* Innovation of a state's position along a direction. */
+static float innovation_along(const float *row, const float place_m[3], const float *state)
 {
-    return row[RHO_X] * state[RHO_X] + row[RHO_Y] * state[RHO_Y] + row[RHO_Z] * state[RHO_Z];
+    return row[RHO_X] * (place_m[RHO_X] - state[RHO_X]) +
+           row[RHO_Y] * (place_m[RHO_Y] - state[RHO_Y]) +
+           row[RHO_Z] * (place_m[RHO_Z] - state[RHO_Z]);
 }
 
 /* Scalar update of both models by the position along a direction. */
@@ -84,20 +87,13 @@ static enum rho_status update_position_along(struct rho_imm *imm, const float di
                                              const float place_m[3], float variance)
 {
     float row[RHO_KALMAN_STATES] = {direction[0], direction[1], direction[2], 0.0f, 0.0f, 0.0f};
-    float innovation_m[3], noise = rho_kalman_floored(variance);
-    for (int i = 0; i < 3; i++) {
-        innovation_m[i] = place_m[i] - imm->steady.state[i];
-    }
-    enum rho_status status =
-        rho_kalman_update_row(&imm->steady, row, dot_position(direction, innovation_m), noise);
-    if (status != RHO_OK) {
-        return status;
-    }
-    for (int i = 0; i < 3; i++) {
-        innovation_m[i] = place_m[i] - imm->state[i];
-    }
-    return rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
-                                 dot_position(direction, innovation_m), noise);
+    const float noise = rho_kalman_floored(variance);
+    enum rho_status status = rho_kalman_update_row(
+        &imm->steady, row, innovation_along(row, place_m, imm->steady.state), noise);
+    return status == RHO_OK
+               ? rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
+                                       innovation_along(row, place_m, imm->state), noise)
+               : status;
 }
 
 /* Updates both models by one element of the state. */
