@@ -7,8 +7,6 @@
 #include "input_sensitivity.h"
 #include "rhotrack/detail/approx.h"
 
-static const struct rho_input no_input = {.present = 0};
-
 /* Quantile of the normal distribution: Abramowitz and Stegun, 26.2.23: error <= 4.5e-4. */
 float rho_input_threshold_sigmas(float confidence)
 {
@@ -84,7 +82,6 @@ static void add_correlated_input_effects(struct rho_kalman *estimate, const stru
 static void add_input_effects(struct rho_kalman *estimate, const struct rho_input *input,
                               uint32_t axes)
 {
-    static const uint8_t diagonal[NUM_AXES] = {RHO_XX, RHO_YY, RHO_ZZ};
     if (!are_inputs_independent(input->variance)) {
         add_correlated_input_effects(estimate, input, axes);
         return;
@@ -92,7 +89,7 @@ static void add_input_effects(struct rho_kalman *estimate, const struct rho_inpu
     for (int a = 0; a < NUM_AXES; a++) {
         if (includes_axis(axes, a)) {
             add_input_effect(estimate, input->sensitivity[a], a, input->input_mps2[a],
-                             input->variance[diagonal[a]]);
+                             input->variance[rho_linalg_row6[a][a]]);
         }
     }
 }
@@ -116,9 +113,8 @@ enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_
         return RHO_ERROR_CONFIG;
     }
     const float variance = config->sigma_mps2 * config->sigma_mps2;
-    const struct rho_kalman bare = *estimate; /* copied, as *estimate may lie within *input */
-    *input = no_input;
-    input->bare = bare;
+    memset(input, 0, sizeof *input);
+    input->bare = *estimate;
     for (int axis = 0; axis < NUM_AXES; axis++) {
         input->variance[RHO_AT(axis, axis)] = variance;
     }

@@ -132,9 +132,9 @@ enum rho_status rho_input_update_element(struct rho_input *input,
     }
     /* usually the element depends on no other axis' input, and the inputs are uncorrelated */
     const int b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
-    if ((rho_size_bits(input->sensitivity[b][element]) |
-         rho_size_bits(input->sensitivity[c][element]) | rho_size_bits(input->variance[RHO_YX]) |
-         rho_size_bits(input->variance[RHO_ZX]) | rho_size_bits(input->variance[RHO_ZY])) == 0) {
+    if (are_inputs_independent(input->variance) &&
+        (rho_size_bits(input->sensitivity[b][element]) |
+         rho_size_bits(input->sensitivity[c][element])) == 0) {
         return is_zero(input->sensitivity[axis][element])
                    ? rho_kalman_update(&input->bare, element, value, variance, NULL)
                    : update_axis_with_own_input(input, axis, element, value, variance);

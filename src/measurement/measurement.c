@@ -165,7 +165,7 @@ float rho_measurement_factor_max(const struct rho_sensor *sensor)
 int rho_bearing_is_valid(const struct rho_bearing *bearing)
 {
     return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
-           rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
+           is_valid_sigma_rad(bearing->sigma_rad);
 }
 
 void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
