@@ -351,6 +351,13 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
         return 0;
     }
     const float range_m = rho_sqrt(range2_m2), s = -dy_m / range_m, c = dx_m / range_m;
+    for (int i = RHO_Z; i < RHO_KALMAN_STATES; i++) {
+        seen->row[i] = 0.0f;
+    }
+    seen->row[RHO_X] = s;
+    seen->row[RHO_Y] = c;
+    seen->range_m = range_m;
+    seen->off_m = range_m * rho_angle_difference(bearing_rad, rho_atan2(dy_m, dx_m));
     /*
      * The second derivative of the bearing is 1 / range^2 (along times across the line of sight):
      * for errors a along and c across, the linearisation leaves out a c / range metres, with the
@@ -362,13 +369,8 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
     const float along = xx * c * c - 2.0f * xy * s * c + yy * s * s;
     const float both = (xx - yy) * s * c + xy * (c * c - s * s);
     const float sigma_m = sigma_rad * range_m;
-    *seen = (struct rho_kalman_bearing){
-        .row = {s, c},
-        .off_m = range_m * rho_angle_difference(bearing_rad, rho_atan2(dy_m, dx_m)),
-        .variance_m2 = sigma_m * sigma_m + ((across / range_m) * (along / range_m) +
-                                            (both / range_m) * (both / range_m)),
-        .range_m = range_m,
-    };
+    seen->variance_m2 = sigma_m * sigma_m + ((across / range_m) * (along / range_m) +
+                                             (both / range_m) * (both / range_m));
     return 1;
 }
 

@@ -157,8 +157,8 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, 
                                                    const struct rho_imm_model *model);
 
 /*
- * Sets the motion model, except for calm_s, whose learned value is kept. Errors: CONFIG;
- * nothing is changed. Cost: one rho_imm_prepare_step. Stack: 300 bytes.
+ * Sets the motion model, except for calm_s, whose learned value is kept. Errors: CONFIG; nothing
+ * is changed. Cost: one rho_imm_prepare_step. Stack: 300 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
                                                         const struct rho_imm_model *model);
@@ -170,8 +170,9 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *p
 void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s);
 
 /*
- * Opens a slot with one hypothesis that starts from an estimate. Errors: CAPACITY (all slots taken, or
- * the pool full, and no other track with a hypothesis to spare). Cost: RHO_MAX_TRACKS. Stack: 150 bytes.
+ * Opens a slot with one hypothesis that starts from an estimate. Errors: CAPACITY (all slots
+ * taken, or the pool full, and no other track with a hypothesis to spare). Cost: RHO_MAX_TRACKS.
+ * Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool,
                                                    const struct rho_kalman *estimate,

@@ -4,8 +4,8 @@
  *
  * A symmetric n x n matrix is its lower triangle row by row: element (i, j <= i) at i (i + 1) / 2 +
  * j, n (n + 1) / 2 floats. Sizes n, 1 .. RHO_LINALG_MAX, and indices are not checked. Every routine
- * checks positive definiteness where it divides (by a comparison that is false for NaN), and returns
- * an error without changing its operands; rho_linalg_cholesky alone may have changed l.
+ * checks positive definiteness where it divides (by a comparison that is false for NaN), and
+ * returns an error without changing its operands; rho_linalg_cholesky alone may have changed l.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -52,7 +52,8 @@ extern const uint8_t rho_linalg_row6[6][6];
 
 /*
  * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a
- * itself). Errors: SINGULAR (a pivot is not a positive finite number; l is undefined). Cost: n^3 / 6 multiplications, n square roots. Stack: 120 bytes.
+ * itself). Errors: SINGULAR (a pivot is not a positive finite number; l is undefined). Cost: n^3
+ * / 6 multiplications, n square roots. Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
 
@@ -79,8 +80,8 @@ RHO_MUST_CHECK enum rho_status rho_linalg_nis(int num, const float *s, const flo
  * noise. *nis (may be NULL) gets innovation^2 / (p_ii + variance). No variance grows by more than
  * 2^-20 of itself, and a positive definite p stays so in spite of rounding, unless it is singular
  * to within 10^-6 already.
- * Errors: VALUE (innovation or a result not finite), SINGULAR (variance not
- * positive, p_ii negative, or their sum not a number one can divide by); x, p and *nis untouched.
+ * Errors: VALUE (innovation or a result not finite), SINGULAR (variance not positive, p_ii
+ * negative, or their sum not a number one can divide by); x, p and *nis untouched.
  * Cost: about 240 instructions. Stack: 112 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element,
