@@ -92,8 +92,6 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
         !is_valid_sigma(polar->sigma_range_m) || !is_valid_sigma_rad(polar->sigma_azimuth_rad) ||
         (has_z && !(rho_is_within(polar->elevation_rad, -RHO_HALF_PI, RHO_HALF_PI) &&
                     is_valid_sigma_rad(polar->sigma_elevation_rad))) ||
-        (has_rate &&
-         !(is_valid_speed(polar->range_rate_mps) && is_valid_sigma(polar->sigma_range_rate_mps))) ||
         (sensor && !rho_measurement_is_valid_site(sensor))) {
         return RHO_ERROR_VALUE;
     }
