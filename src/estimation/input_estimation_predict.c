@@ -193,14 +193,30 @@ static enum rho_status predict_inputs(struct rho_input *input,
     return RHO_OK;
 }
 
+/* Adds the paper's Q to each open axis. False where a variance exceeds its limit, or is NaN. */
+static int add_noise(struct rho_kalman *bare, const struct rho_input_config *config)
+{
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        float *place = &bare->covariance[RHO_AT(axis, axis)];
+        float *speed = &bare->covariance[RHO_AT(NUM_AXES + axis, NUM_AXES + axis)];
+        if (rho_kalman_has_axis(bare, axis)) {
+            *place += config->noise_m * config->noise_m;
+            *speed += config->noise_mps * config->noise_mps;
+        }
+        if (!(*place <= RHO_VARIANCE_MAX && *speed <= RHO_VARIANCE_MAX)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 enum rho_status rho_input_predict(struct rho_input *input, const struct rho_input_config *config,
                                   float dt_s)
 {
     const struct rho_input before = *input;
     enum rho_status status = rho_kalman_predict(&input->bare, dt_s, config->noise_density);
-    if (status == RHO_OK && dt_s > 0.0f) {
-        status = rho_kalman_add_noise(&input->bare, config->noise_m * config->noise_m,
-                                      config->noise_mps * config->noise_mps);
+    if (status == RHO_OK && dt_s > 0.0f && !add_noise(&input->bare, config)) {
+        status = RHO_ERROR_VALUE;
     }
     if (status == RHO_OK && config->is_estimated) {
         status = predict_inputs(input, config, dt_s);

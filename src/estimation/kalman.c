@@ -126,33 +126,6 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
     return RHO_OK;
 }
 
-/* True where the sum of a variance and `by` is within the limit; false for NaN. */
-static int can_add_variance(float variance, float added)
-{
-    return variance + added <= RHO_VARIANCE_MAX;
-}
-
-enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance,
-                                     float velocity_variance)
-{
-    if (!(position_variance >= 0.0f && velocity_variance >= 0.0f)) {
-        return RHO_ERROR_VALUE;
-    }
-    for (int axis = 0; axis < RHO_AXES; ++axis) {
-        if (!can_add_variance(kalman->covariance[DIAGONAL(axis)], position_variance) ||
-            !can_add_variance(kalman->covariance[DIAGONAL(RHO_AXES + axis)], velocity_variance)) {
-            return RHO_ERROR_VALUE;
-        }
-    }
-    for (int axis = 0; axis < RHO_AXES; ++axis) {
-        if (rho_kalman_has_axis(kalman, axis)) {
-            kalman->covariance[DIAGONAL(axis)] += position_variance;
-            kalman->covariance[DIAGONAL(RHO_AXES + axis)] += velocity_variance;
-        }
-    }
-    return RHO_OK;
-}
-
 static void floor_variances(struct rho_kalman *kalman)
 {
     rho_kalman_floor_variances(kalman->covariance, RHO_KALMAN_STATES);

@@ -93,14 +93,6 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
                                                   float noise_density);
 
 /*
- * Adds process noise to each open axis: for papers that state Q per step, independent of the
- * interval. Errors: VALUE (a variance negative or not finite, a result beyond RHO_VARIANCE_MAX);
- * unchanged. Cost: about 60 instructions. Stack: 16 bytes.
- */
-RHO_MUST_CHECK enum rho_status
-rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float velocity_variance);
-
-/*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0
  * (raised to RHO_VARIANCE_MIN). *nis (may be NULL) gets the normalised innovation squared.
  * An element of an axis that is not open is left unchanged. Errors: VALUE (element, value or
