@@ -12,12 +12,13 @@
  *             (-rho, theta +- pi) are one line; its tracks head to theta + pi/2 or theta - pi/2
  *   scores    natural logarithms of likelihood ratios, as integer thousandths of a nat (mnat)
  *   outcomes  every call that can fail returns an enum rho_status. Zero is success; a call that
- *             returns anything else has left its object unchanged, byte for byte
+ *             returns anything else has left its object unchanged, byte for byte. Headers of
+ *             detail/ take pointers that are not NULL where nothing else is said
  *
  * Words:
  *   plot                  one detection by a radar, as a place
- *   look, dwell           one pass of a sensor's beam over a place
- *   scan                  plots of one sensor from one look at a sector, or at the whole circle
+ *   look                  one sensor's detections at one time: a scan, or a part of a large one
+ *   scan                  plots or bearings of one sensor, of a sector or of the whole circle
  *   revolution, turn      one whole circle of a rotating antenna: one scan, or several sectors
  *   scan assembly         making scans of the messages that carry their parts
  *   reorder buffer        holds scans back until older ones have arrived
@@ -152,7 +153,7 @@ struct rho_polar_plot {
     float snr_db;
 };
 
-/* One look of one sensor, a revolution or a sector. The plots are the caller's, and only read. */
+/* One scan of one sensor, a revolution or a sector. The plots are the caller's, and only read. */
 struct rho_scan {
     int64_t time_us;
     int32_t sensor_id;
@@ -171,7 +172,7 @@ struct rho_bearing {
     float snr_db;      /* signal-to-noise ratio, 0 where unknown; passed on, not used */
 };
 
-/* One look of one passive sensor. The bearings belong to the caller and are only read. */
+/* One scan of one passive sensor. The bearings belong to the caller and are only read. */
 struct rho_bearing_scan {
     int64_t time_us;
     int32_t sensor_id;

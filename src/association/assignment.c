@@ -25,7 +25,7 @@ struct search {
 
 int rho_assignment_is_ready(const struct rho_assignment *assignment)
 {
-    return assignment != NULL && assignment->magic == ASSIGNMENT_MAGIC;
+    return assignment->magic == ASSIGNMENT_MAGIC;
 }
 
 /* True where `one` has the higher cost; of equal costs, where it has the higher column. */
@@ -146,9 +146,6 @@ static void clear_answer(struct rho_assignment *a)
 
 enum rho_status rho_assignment_init(struct rho_assignment *assignment, size_t object_size)
 {
-    if (assignment == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (object_size != sizeof *assignment) {
         return RHO_ERROR_SIZE;
     }
@@ -160,12 +157,6 @@ enum rho_status rho_assignment_init(struct rho_assignment *assignment, size_t ob
 enum rho_status rho_assignment_begin(struct rho_assignment *assignment, unsigned num_rows,
                                      unsigned num_columns)
 {
-    if (assignment == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_assignment_is_ready(assignment)) {
-        return RHO_ERROR_STATE;
-    }
     if (num_rows > RHO_MAX_TRACKS || num_columns > RHO_MAX_PLOTS) {
         return RHO_ERROR_CAPACITY;
     }
@@ -181,12 +172,6 @@ enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, uns
                                           unsigned column, int32_t cost)
 {
     const struct rho_assignment_pair pair = {.cost = cost, .column = (int16_t)column};
-    if (assignment == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_assignment_is_ready(assignment)) {
-        return RHO_ERROR_STATE;
-    }
     if (row >= assignment->num_rows || column >= assignment->num_columns ||
         cost < -RHO_ASSIGNMENT_COST_MAX || cost > RHO_ASSIGNMENT_COST_MAX) {
         return RHO_ERROR_VALUE;
@@ -217,9 +202,6 @@ enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, uns
 
 void rho_assignment_solve(struct rho_assignment *assignment)
 {
-    if (!rho_assignment_is_ready(assignment)) {
-        return;
-    }
     clear_answer(assignment);
     for (int row = 0; row < assignment->num_rows; ++row) {
         struct search s = {.end_distance = DISTANCE_NONE, .end_column = RHO_ASSIGNMENT_NONE};
@@ -239,10 +221,7 @@ void rho_assignment_solve(struct rho_assignment *assignment)
 
 int rho_assignment_column(const struct rho_assignment *assignment, unsigned row)
 {
-    if (!rho_assignment_is_ready(assignment) || row >= assignment->num_rows) {
-        return RHO_ASSIGNMENT_NONE;
-    }
-    return assignment->row_column[row];
+    return row < assignment->num_rows ? assignment->row_column[row] : RHO_ASSIGNMENT_NONE;
 }
 
 void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from_row,

@@ -102,13 +102,9 @@ static int test_plot(const struct rho_gate *gate, const struct rho_kalman *at,
         result->has_range_rate = rho_measurement_unfold_rate(gate->sensor, num + 1, s, d);
         num += result->has_range_rate;
     }
-    if (num == 2) {
-        return rho_linalg_nis2(s, d, &result->distance2, &result->log_det) == RHO_OK &&
-               result->distance2 <= RHO_GATE_CHI2_2D;
-    }
-    if (num == 3) {
-        return rho_linalg_nis3(s, d, &result->distance2, &result->log_det) == RHO_OK &&
-               result->distance2 <= RHO_GATE_CHI2_3D;
+    if (num < DIMENSIONS_MAX) {
+        return rho_linalg_nis(num, s, d, &result->distance2, &result->log_det) == RHO_OK &&
+               result->distance2 <= (num == 2 ? RHO_GATE_CHI2_2D : RHO_GATE_CHI2_3D);
     }
     if (rho_linalg_cholesky(num, s, s) != RHO_OK) {
         return 0;
@@ -126,10 +122,7 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
                   struct rho_gate_result *result)
 {
     /* the largest sigma: at high elevation the noise of the height is partly horizontal */
-    float offset_s = (float)plot->offset_us * 1e-6f, sigma_m = plot->sigma_range_m;
-    if (plot->sigma_cross_m > sigma_m) {
-        sigma_m = plot->sigma_cross_m;
-    }
+    float offset_s = (float)plot->offset_us * 1e-6f, sigma_m = rho_plot_sigma_m(plot);
     if ((gate->measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m;
     }

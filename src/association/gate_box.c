@@ -52,7 +52,7 @@ static float largest_magnitude(const struct rho_hypotheses *pool, uint16_t slot,
 void rho_hypotheses_gate_box(struct rho_hypotheses *pool, uint16_t slot,
                              struct rho_hypotheses_box *box)
 {
-    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return;
     }
     int have_height = 1;

@@ -8,14 +8,9 @@
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 
-static int is_ready(const struct rho_hypotheses *pool)
-{
-    return pool->magic == RHO_HYPOTHESES_MAGIC;
-}
-
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
 {
-    return is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
+    return slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
 }
 
 uint16_t rho_hypotheses_pop_node(struct rho_hypotheses *pool)
@@ -54,9 +49,6 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
 enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_size,
                                     const struct rho_imm_model *model)
 {
-    if (!pool || !model) {
-        return RHO_ERROR_NULL;
-    }
     if (object_size != sizeof *pool) {
         return RHO_ERROR_SIZE;
     }
@@ -78,9 +70,6 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_s
 enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
                                          const struct rho_imm_model *model)
 {
-    if (!pool || !model) {
-        return RHO_ERROR_NULL;
-    }
     struct rho_imm_model kept = *model;
     kept.calm_s = pool->model.calm_s;
     if (!rho_imm_model_is_usable(&kept)) {
@@ -102,12 +91,6 @@ void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s)
 enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rho_kalman *estimate,
                                     int64_t time_us, uint16_t *slot)
 {
-    if (!pool || !estimate || !slot) {
-        return RHO_ERROR_NULL;
-    }
-    if (!is_ready(pool)) {
-        return RHO_ERROR_STATE;
-    }
     uint16_t found = 0;
     while (found < RHO_HYPOTHESES_SLOTS && pool->num_of[found] > 0) {
         found++;
@@ -132,7 +115,7 @@ enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rh
 
 void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
 {
-    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return;
     }
     for (unsigned i = pool->num_of[slot]; i > 0; i--) {
@@ -143,7 +126,7 @@ void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
 
 unsigned rho_hypotheses_count(const struct rho_hypotheses *pool, uint16_t slot)
 {
-    return pool && rho_hypotheses_is_open(pool, slot) ? pool->num_of[slot] : 0;
+    return rho_hypotheses_is_open(pool, slot) ? pool->num_of[slot] : 0;
 }
 
 const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool, uint16_t slot,
@@ -197,9 +180,6 @@ float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot)
 static enum rho_status predict_slot(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
                                     int is_without_noise)
 {
-    if (!pool) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
@@ -285,25 +265,25 @@ static inline void add_deviation(struct moment_sums *sums, const struct rho_imm 
     sums->deviation[i] += s->scaled[i] + m->scaled[i];
 }
 
-/* Adds the product of both models' deviations i and j. */
-static inline void add_product(float *restrict out, const struct weighted_model *restrict s,
+/*
+ * Adds element i, j of the covariance: the product of both models' deviations, and their own, which
+ * most hypotheses have within an axis alone.
+ */
+static inline void add_product(float *restrict out, const struct rho_imm *restrict imm,
+                               const struct weighted_model *restrict s,
                                const struct weighted_model *restrict m, int i, int j)
 {
-    out[RHO_AT(i, j)] += s->scaled[i] * s->deviation[j] + m->scaled[i] * m->deviation[j];
-}
-
-/* Adds both models' covariances of elements i and j. */
-static inline void add_covariance(float *restrict out, const struct rho_imm *restrict imm, float s,
-                                  float m, int i, int j)
-{
-    out[RHO_AT(i, j)] +=
-        s * imm->steady.covariance[RHO_AT(i, j)] + m * imm->covariance[RHO_AT(i, j)];
+    float *sum = &out[RHO_AT(i, j)];
+    *sum += s->scaled[i] * s->deviation[j] + m->scaled[i] * m->deviation[j];
+    if (i % RHO_AXES == j % RHO_AXES || imm->is_coupled) {
+        *sum += s->share * imm->steady.covariance[RHO_AT(i, j)] +
+                m->share * imm->covariance[RHO_AT(i, j)];
+    }
 }
 
 /*
  * Adds both models of one hypothesis, weighted by its share, to the sums. Written out over the
- * elements, as a loop would take three times as long. The axes of most hypotheses are coupled by
- * their deviations alone.
+ * elements, as a loop would take three times as long.
  */
 static void add_hypothesis(struct moment_sums *sums, const struct rho_imm *imm, float share)
 {
@@ -315,55 +295,30 @@ static void add_hypothesis(struct moment_sums *sums, const struct rho_imm *imm, 
     add_deviation(sums, imm, &s, &m, 1);
     add_deviation(sums, imm, &s, &m, 3);
     add_deviation(sums, imm, &s, &m, 4);
-    add_product(out, &s, &m, 0, 0);
-    add_product(out, &s, &m, 1, 1);
-    add_product(out, &s, &m, 3, 0);
-    add_product(out, &s, &m, 3, 3);
-    add_product(out, &s, &m, 4, 1);
-    add_product(out, &s, &m, 4, 4);
-    add_product(out, &s, &m, 1, 0);
-    add_product(out, &s, &m, 3, 1);
-    add_product(out, &s, &m, 4, 0);
-    add_product(out, &s, &m, 4, 3);
-    add_covariance(out, imm, s.share, m.share, 0, 0);
-    add_covariance(out, imm, s.share, m.share, 1, 1);
-    add_covariance(out, imm, s.share, m.share, 3, 0);
-    add_covariance(out, imm, s.share, m.share, 3, 3);
-    add_covariance(out, imm, s.share, m.share, 4, 1);
-    add_covariance(out, imm, s.share, m.share, 4, 4);
-    if (imm->is_coupled) {
-        add_covariance(out, imm, s.share, m.share, 1, 0);
-        add_covariance(out, imm, s.share, m.share, 3, 1);
-        add_covariance(out, imm, s.share, m.share, 4, 0);
-        add_covariance(out, imm, s.share, m.share, 4, 3);
-    }
+    add_product(out, imm, &s, &m, 0, 0);
+    add_product(out, imm, &s, &m, 1, 1);
+    add_product(out, imm, &s, &m, 3, 0);
+    add_product(out, imm, &s, &m, 3, 3);
+    add_product(out, imm, &s, &m, 4, 1);
+    add_product(out, imm, &s, &m, 4, 4);
+    add_product(out, imm, &s, &m, 1, 0);
+    add_product(out, imm, &s, &m, 3, 1);
+    add_product(out, imm, &s, &m, 4, 0);
+    add_product(out, imm, &s, &m, 4, 3);
     if (sums->has_height) {
         add_deviation(sums, imm, &s, &m, 2);
         add_deviation(sums, imm, &s, &m, 5);
-        add_product(out, &s, &m, 2, 2);
-        add_product(out, &s, &m, 5, 2);
-        add_product(out, &s, &m, 5, 5);
-        add_product(out, &s, &m, 2, 0);
-        add_product(out, &s, &m, 2, 1);
-        add_product(out, &s, &m, 3, 2);
-        add_product(out, &s, &m, 4, 2);
-        add_product(out, &s, &m, 5, 0);
-        add_product(out, &s, &m, 5, 1);
-        add_product(out, &s, &m, 5, 3);
-        add_product(out, &s, &m, 5, 4);
-        add_covariance(out, imm, s.share, m.share, 2, 2);
-        add_covariance(out, imm, s.share, m.share, 5, 2);
-        add_covariance(out, imm, s.share, m.share, 5, 5);
-    }
-    if (sums->has_height && imm->is_coupled) {
-        add_covariance(out, imm, s.share, m.share, 2, 0);
-        add_covariance(out, imm, s.share, m.share, 2, 1);
-        add_covariance(out, imm, s.share, m.share, 3, 2);
-        add_covariance(out, imm, s.share, m.share, 4, 2);
-        add_covariance(out, imm, s.share, m.share, 5, 0);
-        add_covariance(out, imm, s.share, m.share, 5, 1);
-        add_covariance(out, imm, s.share, m.share, 5, 3);
-        add_covariance(out, imm, s.share, m.share, 5, 4);
+        add_product(out, imm, &s, &m, 2, 2);
+        add_product(out, imm, &s, &m, 5, 2);
+        add_product(out, imm, &s, &m, 5, 5);
+        add_product(out, imm, &s, &m, 2, 0);
+        add_product(out, imm, &s, &m, 2, 1);
+        add_product(out, imm, &s, &m, 3, 2);
+        add_product(out, imm, &s, &m, 4, 2);
+        add_product(out, imm, &s, &m, 5, 0);
+        add_product(out, imm, &s, &m, 5, 1);
+        add_product(out, imm, &s, &m, 5, 3);
+        add_product(out, imm, &s, &m, 5, 4);
     }
     sums->share += share;
     sums->maneuver += m.share;
@@ -377,9 +332,6 @@ enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t sl
 {
     struct moment_sums sums = {.share = 0.0f};
     int is_first = 1;
-    if (!pool || !estimate) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }

@@ -146,7 +146,7 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
                               float log_pd, const struct rho_hypotheses_clutter *clutter,
                               float *best_weight_nat)
 {
-    if (!pool || !seen || !clutter || !best_weight_nat || !rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
     const struct offered_plot offer = {
@@ -386,9 +386,6 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
                                       const struct rho_hypotheses_scan *scan,
                                       struct rho_hypotheses_outcome *outcome)
 {
-    if (!pool || !scan || !outcome) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
@@ -400,48 +397,50 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
     return RHO_OK;
 }
 
-/*
- * Moves a hypothesis to another time. Returns 0 if it cannot be moved, and is unchanged; else
- * scratch has a copy of the moved filter, in case the update that follows fails.
- */
-static int move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
+/* Moves a hypothesis to another time; scratch has the filter in case this or the update fails. */
+static enum rho_status move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                       int64_t time_us)
 {
     pool->scratch = at->imm;
-    if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
-        at->imm = pool->scratch;
-        return 0;
+    const enum rho_status status =
+        rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us);
+    if (status == RHO_OK) {
+        at->time_us = time_us;
+        pool->scratch = at->imm;
     }
-    at->time_us = time_us;
-    pool->scratch = at->imm;
-    return 1;
+    return status;
+}
+
+/* Ends an update with status `one`; returns RHO_OK where it or an earlier one did not fail. */
+static enum rho_status end_update(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                  enum rho_status one, enum rho_status so_far)
+{
+    if (one != RHO_OK) {
+        at->imm = pool->scratch;
+        pool->updates_refused = rho_count(pool->updates_refused, 1);
+    }
+    return so_far == RHO_OK ? RHO_OK : one;
 }
 
 enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot,
                                       const struct rho_imm_plot *seen, int64_t time_us)
 {
     enum rho_status status = RHO_ERROR_VALUE;
-    if (!pool || !seen) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         struct rho_imm_match match;
-        enum rho_status one = RHO_ERROR_VALUE;
-        if (move_hypothesis(pool, at, time_us)) {
+        enum rho_status one = move_hypothesis(pool, at, time_us);
+        if (one == RHO_OK) {
             /* a plot far from both predictions does not change the models' probabilities */
             if (!rho_imm_score_plot(&at->imm, seen, &match)) {
                 match.probability = at->imm.probability;
             }
             one = rho_imm_update(&at->imm, &pool->model, seen, &match);
-            if (one != RHO_OK) {
-                at->imm = pool->scratch;
-            }
         }
-        status = status == RHO_OK ? RHO_OK : one;
-        pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
+        status = end_update(pool, at, one, status);
     }
     return status;
 }
@@ -458,29 +457,21 @@ enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint1
 {
     enum rho_status status = RHO_ERROR_VALUE;
     float gains_nat[RHO_HYPOTHESES_OF_TRACK] = {0.0f}, least_nat = 0.0f;
-    if (!pool) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         float *gain_nat = &gains_nat[i];
-        enum rho_status one = RHO_ERROR_VALUE;
-        if (move_hypothesis(pool, at, time_us)) {
+        enum rho_status one = move_hypothesis(pool, at, time_us);
+        if (one == RHO_OK) {
             one = rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, gain_nat);
-            if (one != RHO_OK) {
-                at->imm = pool->scratch;
-                *gain_nat = 0.0f;
-            }
         }
         if (has_used_bearing(*gain_nat) &&
             (!has_used_bearing(least_nat) || *gain_nat < least_nat)) {
             least_nat = *gain_nat;
         }
-        status = status == RHO_OK ? RHO_OK : one;
-        pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
+        status = end_update(pool, at, one, status);
     }
     /* hypotheses that could not use the bearing get the least gain: they have no advantage */
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {

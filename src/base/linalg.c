@@ -29,12 +29,6 @@ static float dot(int n, const float *a, const float *b)
 
 enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
 {
-    if (a == NULL || l == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (n < 1 || n > RHO_LINALG_MAX) {
-        return RHO_ERROR_CAPACITY;
-    }
     for (int i = 0; i < n; ++i) {
         float *row = &l[RHO_TRIANGLE(i)];
         for (int j = 0; j < i; ++j) {
@@ -52,9 +46,6 @@ enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
 
 void rho_linalg_forward(int n, const float *l, float *b)
 {
-    if (n < 1 || n > RHO_LINALG_MAX || l == NULL || b == NULL) {
-        return;
-    }
     for (int i = 0; i < n; ++i) {
         const float *row = &l[RHO_TRIANGLE(i)];
         b[i] = (b[i] - dot(i, row, b)) / row[i];
@@ -63,9 +54,6 @@ void rho_linalg_forward(int n, const float *l, float *b)
 
 void rho_linalg_backward(int n, const float *l, float *b)
 {
-    if (n < 1 || n > RHO_LINALG_MAX || l == NULL || b == NULL) {
-        return;
-    }
     for (int i = n - 1; i >= 0; --i) {
         for (int j = i + 1; j < n; ++j) {
             b[i] -= l[RHO_AT(j, i)] * b[j];
@@ -77,9 +65,6 @@ void rho_linalg_backward(int n, const float *l, float *b)
 float rho_linalg_log_determinant(int n, const float *l)
 {
     float sum = 0.0f;
-    if (n < 1 || n > RHO_LINALG_MAX || l == NULL) {
-        return rho_log(-1.0f);
-    }
     for (int i = 0; i < n; ++i) {
         sum += rho_log(l[RHO_AT(i, i)]);
     }
@@ -87,42 +72,21 @@ float rho_linalg_log_determinant(int n, const float *l)
 }
 
 /* NIS by S = L D L^T: pivots, as a determinant cancels where errors are correlated. */
-enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
-                                float *log_det)
+enum rho_status rho_linalg_nis(int num, const float *s, const float *d, float *distance2,
+                               float *log_det)
 {
-    if (s == NULL || d == NULL || distance2 == NULL || log_det == NULL) {
-        return RHO_ERROR_NULL;
-    }
     const float l10 = s[1] / s[0], pivot1 = s[2] - l10 * s[1], y1 = d[1] - l10 * d[0];
-    const float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1;
-    if (!(is_pivot(s[0]) && is_pivot(pivot1) && rho_is_finite(distance))) {
-        return RHO_ERROR_SINGULAR;
+    float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1, det = s[0] * pivot1;
+    int is_good = is_pivot(s[0]) && is_pivot(pivot1);
+    if (num > 2) {
+        const float l20 = s[3] / s[0], c21 = s[4] - l20 * s[1], l21 = c21 / pivot1;
+        const float pivot2 = s[5] - l20 * s[3] - l21 * c21, y2 = d[2] - l20 * d[0] - l21 * y1;
+        distance += y2 * y2 / pivot2;
+        det *= pivot2;
+        is_good = is_good && is_pivot(pivot2);
     }
-    const float logarithm = rho_log(s[0] * pivot1);
-    if (!rho_is_finite(logarithm)) {
-        return RHO_ERROR_SINGULAR;
-    }
-    *distance2 = distance;
-    *log_det = logarithm;
-    return RHO_OK;
-}
-
-enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *distance2,
-                                float *log_det)
-{
-    if (s == NULL || d == NULL || distance2 == NULL || log_det == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    const float l10 = s[1] / s[0], l20 = s[3] / s[0], pivot1 = s[2] - l10 * s[1];
-    const float c21 = s[4] - l20 * s[1], l21 = c21 / pivot1;
-    const float pivot2 = s[5] - l20 * s[3] - l21 * c21;
-    const float y1 = d[1] - l10 * d[0], y2 = d[2] - l20 * d[0] - l21 * y1;
-    const float distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1 + y2 * y2 / pivot2;
-    if (!(is_pivot(s[0]) && is_pivot(pivot1) && is_pivot(pivot2) && rho_is_finite(distance))) {
-        return RHO_ERROR_SINGULAR;
-    }
-    const float logarithm = rho_log(s[0] * pivot1 * pivot2);
-    if (!rho_is_finite(logarithm)) {
+    const float logarithm = rho_log(det);
+    if (!(is_good && rho_is_finite(distance) && rho_is_finite(logarithm))) {
         return RHO_ERROR_SINGULAR;
     }
     *distance2 = distance;
@@ -238,12 +202,6 @@ enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element,
         {1, 3, 10, 15}, {1, 4, 7, 16},    {3, 4, 8, 12},
         {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
     };
-    if (x == NULL || p == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (element < 0 || element >= 6) {
-        return RHO_ERROR_VALUE;
-    }
     const float predicted = p[RHO_AT(element, element)], sum = predicted + variance;
     /* the measured row is scaled by R / S <= 1, not reduced by a difference: no digit cancels */
     const struct scalar_measurement seen = {innovation, 1.0f / sum, variance / sum};
@@ -281,12 +239,9 @@ float rho_linalg_project6(const float p[21], const float row[6], float projected
 }
 
 enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
-                                       float innovation, float variance, float *nis)
+                                       float innovation, float variance)
 {
     float projected[6], gain[6];
-    if (x == NULL || p == NULL || row == NULL) {
-        return RHO_ERROR_NULL;
-    }
     const float predicted = rho_linalg_project6(p, row, projected), sum = predicted + variance;
     const float inverse = 1.0f / sum;
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
@@ -297,9 +252,6 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
         return RHO_ERROR_VALUE;
     }
     reduce_covariance(p, projected, gain);
-    if (nis != NULL) {
-        *nis = innovation * inverse * innovation;
-    }
     return RHO_OK;
 }
 

@@ -51,15 +51,6 @@ enum rho_status rho_linalg_update_element(int n, float *x, float *p, int element
                                           float variance)
 {
     float row[RHO_LINALG_MAX];
-    if (x == NULL || p == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (n < 1 || n > RHO_LINALG_MAX) {
-        return RHO_ERROR_CAPACITY;
-    }
-    if (element < 0 || element >= n) {
-        return RHO_ERROR_VALUE;
-    }
     for (int i = 0; i < n; ++i) {
         row[i] = p[RHO_AT(i, element)];
     }
@@ -104,12 +95,6 @@ enum rho_status rho_linalg_update_row(int n, float *x, float *p, int num, const 
                                       float innovation, float variance)
 {
     float spread[RHO_LINALG_MAX];
-    if (x == NULL || p == NULL || row == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (n < 1 || n > RHO_LINALG_MAX || num < 1 || num > n) {
-        return RHO_ERROR_CAPACITY;
-    }
     const float inverse =
         inverse_innovation_variance(project_covariance(n, p, num, row, spread), variance);
     if (!(inverse > 0.0f)) {
@@ -126,10 +111,6 @@ int rho_linalg_gated_nis(int n, float *s, float *d, float distance2_max, float *
                          float *log_det)
 {
     float distance = 0.0f, logarithm = 0.0f, product = 1.0f;
-    if (n < 1 || n > RHO_LINALG_MAX || s == NULL || d == NULL || distance2 == NULL ||
-        log_det == NULL) {
-        return 0;
-    }
     /* S = L D L^T: column k is eliminated from the columns to its right and from d */
     for (int k = 0; k < n; ++k) {
         const float pivot = s[RHO_AT(k, k)], inverse = 1.0f / pivot;

@@ -411,14 +411,11 @@ static enum rho_status predict_models(struct rho_imm *imm, const struct rho_imm_
 
 enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return imm && step ? predict_models(imm, step, 0) : RHO_ERROR_NULL;
+    return predict_models(imm, step, 0);
 }
 
 enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    if (!imm || !step) {
-        return RHO_ERROR_NULL;
-    }
     if (!(step->begins + step->ends > 0.0f)) {
         return predict_models(imm, step, 0);
     }

@@ -74,9 +74,12 @@ static enum rho_status update_independent_axes(struct rho_imm *imm, int num_axes
     return rho_is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
 
-static float dot_position(const float *row, const float *state)
+/* Innovation of a state's position along a direction. */
+static float innovation_along(const float *row, const float place_m[3], const float *state)
 {
-    return row[RHO_X] * state[RHO_X] + row[RHO_Y] * state[RHO_Y] + row[RHO_Z] * state[RHO_Z];
+    return row[RHO_X] * (place_m[RHO_X] - state[RHO_X]) +
+           row[RHO_Y] * (place_m[RHO_Y] - state[RHO_Y]) +
+           row[RHO_Z] * (place_m[RHO_Z] - state[RHO_Z]);
 }
 
 /* Scalar update of both models by the position along a direction. */
@@ -84,20 +87,13 @@ static enum rho_status update_position_along(struct rho_imm *imm, const float di
                                              const float place_m[3], float variance)
 {
     float row[RHO_KALMAN_STATES] = {direction[0], direction[1], direction[2], 0.0f, 0.0f, 0.0f};
-    float innovation_m[3], noise = rho_kalman_floored(variance);
-    for (int i = 0; i < 3; i++) {
-        innovation_m[i] = place_m[i] - imm->steady.state[i];
-    }
-    enum rho_status status =
-        rho_kalman_update_row(&imm->steady, row, dot_position(direction, innovation_m), noise, 0);
-    if (status != RHO_OK) {
-        return status;
-    }
-    for (int i = 0; i < 3; i++) {
-        innovation_m[i] = place_m[i] - imm->state[i];
-    }
-    return rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
-                                 dot_position(direction, innovation_m), noise);
+    const float noise = rho_kalman_floored(variance);
+    enum rho_status status = rho_kalman_update_row(
+        &imm->steady, row, innovation_along(row, place_m, imm->steady.state), noise);
+    return status == RHO_OK
+               ? rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
+                                       innovation_along(row, place_m, imm->state), noise)
+               : status;
 }
 
 /* Updates both models by one element of the state. */
@@ -229,9 +225,6 @@ static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm
 enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *model,
                                const struct rho_imm_plot *seen, const struct rho_imm_match *match)
 {
-    if (!imm || !model || !seen || !match) {
-        return RHO_ERROR_NULL;
-    }
     const int opens = seen->position.has_z && !has_estimate_on_axis(imm, RHO_Z);
     const int num_axes = seen->position.has_z && !opens ? 3 : 2;
     const int is_simple = !imm->is_coupled && seen->position.is_isotropic &&
@@ -265,12 +258,6 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
     struct rho_kalman at;
     struct rho_kalman_bearing bearings[2];
     float variance[2], projected[RHO_KALMAN_STATES];
-    if (!imm || !gain_nat) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
-        return RHO_ERROR_VALUE;
-    }
     load_kinematics(&at, imm->state, imm->covariance);
     *gain_nat = 0.0f;
     if (!rho_kalman_linearise_bearing(&imm->steady, x_m, y_m, bearing_rad, sigma_rad,
@@ -284,7 +271,7 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
         rho_linalg_project6(at.covariance, bearings[1].row, projected) + bearings[1].variance_m2;
     imm->is_coupled = 1;
     enum rho_status status = rho_kalman_update_row(&imm->steady, bearings[0].row, bearings[0].off_m,
-                                                   bearings[0].variance_m2, 0);
+                                                   bearings[0].variance_m2);
     if (status == RHO_OK) {
         status = rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2,
                                        bearings[1].row, bearings[1].off_m, bearings[1].variance_m2);

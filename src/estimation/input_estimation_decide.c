@@ -3,7 +3,6 @@
  * input_estimation_decide: tests on each axis whether an input (an acceleration) is present. The
  * effect of an input that was present before and is rejected now is moved into the estimate.
  */
-#include <stddef.h>
 #include <string.h>
 
 #include "input_sensitivity.h"
@@ -107,7 +106,7 @@ static uint32_t end_correlated_inputs(struct rho_input *input, float nis_limit,
 
 void rho_input_decide(struct rho_input *input, const struct rho_input_config *config)
 {
-    if (input == NULL || config == NULL || !config->is_estimated) {
+    if (!config->is_estimated) {
         return;
     }
     const float limit2 = config->threshold * config->threshold;

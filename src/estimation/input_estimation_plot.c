@@ -82,9 +82,6 @@ enum rho_status rho_input_update_position(struct rho_input *input,
                                           const struct rho_measurement *measurement)
 {
     enum rho_status status;
-    if (input == NULL || config == NULL || measurement == NULL) {
-        return RHO_ERROR_NULL;
-    }
     struct rho_input next = *input;
     if (config->is_estimated) {
         status = update_position(&next, config, measurement);
@@ -115,9 +112,6 @@ enum rho_status rho_input_update_range_rate(struct rho_input *input,
 {
     struct rho_kalman corrected;
     struct rho_kalman_row seen;
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
     rho_input_estimate(input, &corrected);
     if (!rho_kalman_linearise_rate(&corrected, sensor, rate_mps, variance, &seen) ||
         !rho_kalman_can_unfold(&corrected, sensor, &seen)) {
@@ -134,12 +128,6 @@ enum rho_status rho_input_update_bearing(struct rho_input *input,
 {
     struct rho_kalman corrected;
     struct rho_kalman_bearing seen;
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
-        return RHO_ERROR_VALUE;
-    }
     rho_input_estimate(input, &corrected);
     if (!rho_kalman_linearise_bearing(&corrected, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
         return RHO_OK;

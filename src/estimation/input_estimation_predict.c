@@ -2,13 +2,10 @@
 #include "rhotrack/detail/input_estimation.h"
 
 #include <float.h>
-#include <stddef.h>
 #include <string.h>
 
 #include "input_sensitivity.h"
 #include "rhotrack/detail/approx.h"
-
-static const struct rho_input no_input = {.present = 0};
 
 /* Quantile of the normal distribution: Abramowitz and Stegun, 26.2.23: error <= 4.5e-4. */
 float rho_input_threshold_sigmas(float confidence)
@@ -23,25 +20,21 @@ float rho_input_threshold_sigmas(float confidence)
 
 void rho_input_config_default(struct rho_input_config *config)
 {
-    static const struct rho_input_config paper = {.is_estimated = 1,
-                                                  .model = RHO_INPUT_LITERAL,
-                                                  .sigma_mps2 = 22.36068f, /* the root of 500 */
-                                                  .threshold = 1.959964f,
-                                                  .gamma = 1.0f,
-                                                  .noise_density = 0.0f,
-                                                  .noise_m = 1.0f,
-                                                  .noise_mps = 1.0f,
-                                                  .velocity_variance = 490000.0f,
-                                                  .initial_variance = 0.0f};
-
-    if (config != NULL) {
-        *config = paper;
-    }
+    *config = (struct rho_input_config){
+        .is_estimated = 1,
+        .model = RHO_INPUT_LITERAL,
+        .sigma_mps2 = 22.36068f, /* the root of 500 */
+        .threshold = 1.959964f,
+        .gamma = 1.0f,
+        .noise_m = 1.0f,
+        .noise_mps = 1.0f,
+        .velocity_variance = 490000.0f,
+    };
 }
 
 int rho_input_is_usable(const struct rho_input_config *config)
 {
-    return config != NULL && config->model < RHO_NUM_INPUT_MODELS &&
+    return config->model < RHO_NUM_INPUT_MODELS &&
            rho_is_within(config->sigma_mps2, 1.0e-3f, 1.0e5f) && config->threshold > 0.0f &&
            config->threshold <= FLT_MAX && config->gamma > 0.0f && config->gamma <= 1.0f &&
            rho_is_within(config->noise_density, 0.0f, FLT_MAX) &&
@@ -89,7 +82,6 @@ static void add_correlated_input_effects(struct rho_kalman *estimate, const stru
 static void add_input_effects(struct rho_kalman *estimate, const struct rho_input *input,
                               uint32_t axes)
 {
-    static const uint8_t diagonal[NUM_AXES] = {RHO_XX, RHO_YY, RHO_ZZ};
     if (!are_inputs_independent(input->variance)) {
         add_correlated_input_effects(estimate, input, axes);
         return;
@@ -97,7 +89,7 @@ static void add_input_effects(struct rho_kalman *estimate, const struct rho_inpu
     for (int a = 0; a < NUM_AXES; a++) {
         if (includes_axis(axes, a)) {
             add_input_effect(estimate, input->sensitivity[a], a, input->input_mps2[a],
-                             input->variance[diagonal[a]]);
+                             input->variance[rho_linalg_row6[a][a]]);
         }
     }
 }
@@ -117,16 +109,12 @@ void rho_input_gate_estimate(const struct rho_input *input, struct rho_kalman *e
 enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_config *config,
                                 const struct rho_kalman *estimate)
 {
-    if (input == NULL || config == NULL || estimate == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_input_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
     const float variance = config->sigma_mps2 * config->sigma_mps2;
-    const struct rho_kalman bare = *estimate; /* copied, as *estimate may lie within *input */
-    *input = no_input;
-    input->bare = bare;
+    memset(input, 0, sizeof *input);
+    input->bare = *estimate;
     for (int axis = 0; axis < NUM_AXES; axis++) {
         input->variance[RHO_AT(axis, axis)] = variance;
     }
@@ -205,17 +193,30 @@ static enum rho_status predict_inputs(struct rho_input *input,
     return RHO_OK;
 }
 
+/* Adds the paper's Q to each open axis. False where a variance exceeds its limit, or is NaN. */
+static int add_noise(struct rho_kalman *bare, const struct rho_input_config *config)
+{
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        float *place = &bare->covariance[RHO_AT(axis, axis)];
+        float *speed = &bare->covariance[RHO_AT(NUM_AXES + axis, NUM_AXES + axis)];
+        if (rho_kalman_has_axis(bare, axis)) {
+            *place += config->noise_m * config->noise_m;
+            *speed += config->noise_mps * config->noise_mps;
+        }
+        if (!(*place <= RHO_VARIANCE_MAX && *speed <= RHO_VARIANCE_MAX)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 enum rho_status rho_input_predict(struct rho_input *input, const struct rho_input_config *config,
                                   float dt_s)
 {
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
     const struct rho_input before = *input;
     enum rho_status status = rho_kalman_predict(&input->bare, dt_s, config->noise_density);
-    if (status == RHO_OK && dt_s > 0.0f) {
-        status = rho_kalman_add_noise(&input->bare, config->noise_m * config->noise_m,
-                                      config->noise_mps * config->noise_mps);
+    if (status == RHO_OK && dt_s > 0.0f && !add_noise(&input->bare, config)) {
+        status = RHO_ERROR_VALUE;
     }
     if (status == RHO_OK && config->is_estimated) {
         status = predict_inputs(input, config, dt_s);

@@ -71,7 +71,7 @@ static enum rho_status update_all(struct rho_input *input, const struct scalar_m
     }
     const enum rho_status status =
         scalar->row
-            ? rho_kalman_update_row(&next.bare, scalar->row, scalar->off, scalar->noise, 0)
+            ? rho_kalman_update_row(&next.bare, scalar->row, scalar->off, scalar->noise)
             : rho_kalman_update(&next.bare, scalar->element, scalar->value, scalar->noise, NULL);
     if (status == RHO_OK) {
         *input = next;
@@ -123,9 +123,6 @@ enum rho_status rho_input_update_element(struct rho_input *input,
                                          const struct rho_input_config *config, int element,
                                          float value, float variance)
 {
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (element < 0 || element >= NUM_STATES) {
         return RHO_ERROR_VALUE;
     }
@@ -135,9 +132,9 @@ enum rho_status rho_input_update_element(struct rho_input *input,
     }
     /* usually the element depends on no other axis' input, and the inputs are uncorrelated */
     const int b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
-    if ((rho_size_bits(input->sensitivity[b][element]) |
-         rho_size_bits(input->sensitivity[c][element]) | rho_size_bits(input->variance[RHO_YX]) |
-         rho_size_bits(input->variance[RHO_ZX]) | rho_size_bits(input->variance[RHO_ZY])) == 0) {
+    if (are_inputs_independent(input->variance) &&
+        (rho_size_bits(input->sensitivity[b][element]) |
+         rho_size_bits(input->sensitivity[c][element])) == 0) {
         return is_zero(input->sensitivity[axis][element])
                    ? rho_kalman_update(&input->bare, element, value, variance, NULL)
                    : update_axis_with_own_input(input, axis, element, value, variance);
@@ -159,11 +156,8 @@ enum rho_status rho_input_update_element(struct rho_input *input,
 enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,
                                      const float row[6], float innovation, float variance)
 {
-    if (input == NULL || config == NULL || row == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!config->is_estimated) {
-        return rho_kalman_update_row(&input->bare, row, innovation, variance, NULL);
+        return rho_kalman_update_row(&input->bare, row, innovation, variance);
     }
     struct scalar_measurement scalar = {.row = row, .noise = variance, .off = innovation};
     scalar.variance = rho_kalman_floored(variance) +

@@ -4,6 +4,8 @@
 #include <float.h>
 #include <stddef.h>
 
+#include "rhotrack/detail/angle.h"
+
 /* Indices in the triangle: variance of element i, cov(velocity of axis a, position of axis b). */
 #define DIAGONAL(i) RHO_AT(i, i)
 #define VELOCITY_POSITION(a, b) (RHO_TRIANGLE(RHO_AXES + (a)) + (b))
@@ -49,18 +51,12 @@ static inline int predict_axis(struct axis_prediction *next, const struct rho_ka
 
 void rho_kalman_init(struct rho_kalman *kalman)
 {
-    static const struct rho_kalman nothing_measured = {.state = {0.0f}, .covariance = {0.0f}};
-    if (kalman != NULL) {
-        *kalman = nothing_measured;
-    }
+    *kalman = (struct rho_kalman){.state = {0.0f}};
 }
 
 enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float position_m,
                                      float position_variance, float velocity_variance)
 {
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (axis < 0 || axis >= RHO_AXES || !rho_is_finite(position_m) ||
         !is_valid_variance(position_variance) || !is_valid_variance(velocity_variance)) {
         return RHO_ERROR_VALUE;
@@ -90,9 +86,6 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
 {
     const float noise = dt_s > 0.0f ? noise_density * dt_s : 0.0f;
     struct axis_prediction next[RHO_AXES];
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!(dt_s >= -RHO_KALMAN_STEP_MAX_S && dt_s <= RHO_KALMAN_STEP_MAX_S &&
           noise_density >= 0.0f && noise_density <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
@@ -133,36 +126,6 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
     return RHO_OK;
 }
 
-/* True where the sum of a variance and `by` is within the limit; false for NaN. */
-static int can_add_variance(float variance, float added)
-{
-    return variance + added <= RHO_VARIANCE_MAX;
-}
-
-enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance,
-                                     float velocity_variance)
-{
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (!(position_variance >= 0.0f && velocity_variance >= 0.0f)) {
-        return RHO_ERROR_VALUE;
-    }
-    for (int axis = 0; axis < RHO_AXES; ++axis) {
-        if (!can_add_variance(kalman->covariance[DIAGONAL(axis)], position_variance) ||
-            !can_add_variance(kalman->covariance[DIAGONAL(RHO_AXES + axis)], velocity_variance)) {
-            return RHO_ERROR_VALUE;
-        }
-    }
-    for (int axis = 0; axis < RHO_AXES; ++axis) {
-        if (rho_kalman_has_axis(kalman, axis)) {
-            kalman->covariance[DIAGONAL(axis)] += position_variance;
-            kalman->covariance[DIAGONAL(RHO_AXES + axis)] += velocity_variance;
-        }
-    }
-    return RHO_OK;
-}
-
 static void floor_variances(struct rho_kalman *kalman)
 {
     rho_kalman_floor_variances(kalman->covariance, RHO_KALMAN_STATES);
@@ -171,9 +134,6 @@ static void floor_variances(struct rho_kalman *kalman)
 enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
                                   float variance, float *nis)
 {
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (element < 0 || element >= RHO_KALMAN_STATES || !rho_is_finite(value) ||
         !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
@@ -189,17 +149,14 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
 }
 
 enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
-                                      float innovation, float variance, float *nis)
+                                      float innovation, float variance)
 {
-    if (kalman == NULL || row == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_is_finite(innovation) || !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
     }
     const float noise = rho_kalman_floored(variance);
     const enum rho_status status =
-        rho_linalg_update6_row(kalman->state, kalman->covariance, row, innovation, noise, nis);
+        rho_linalg_update6_row(kalman->state, kalman->covariance, row, innovation, noise);
     if (status == RHO_OK) {
         floor_variances(kalman);
     }
@@ -275,9 +232,6 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
                                            const struct rho_measurement *measurement,
                                            float velocity_variance)
 {
-    if (kalman == NULL || measurement == NULL) {
-        return RHO_ERROR_NULL;
-    }
     const int num_axes = measurement->has_z ? RHO_AXES : 2;
     if (!rho_are_finite(measurement->place_m, (size_t)num_axes)) {
         return RHO_ERROR_VALUE;
@@ -353,32 +307,37 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                              float variance)
 {
     struct rho_kalman_row seen;
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_kalman_linearise_rate(kalman, sensor, rate_mps, variance, &seen) ||
         !rho_kalman_can_unfold(kalman, sensor, &seen)) {
         return RHO_OK;
     }
-    return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance, NULL);
+    return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance);
 }
 
 int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, float y_m,
                                  float bearing_rad, float sigma_rad,
                                  struct rho_kalman_bearing *seen)
 {
-    if (!rho_measurement_bearing_row(kalman->state, x_m, y_m, bearing_rad, seen->row, &seen->off_m,
-                                     &seen->range_m)) {
+    const float dx_m = kalman->state[RHO_X] - x_m, dy_m = kalman->state[RHO_Y] - y_m;
+    const float range2_m2 = dx_m * dx_m + dy_m * dy_m;
+    if (!(range2_m2 >= RHO_RANGE_LEAST_M * RHO_RANGE_LEAST_M) || !(range2_m2 <= FLT_MAX)) {
         return 0;
     }
+    const float range_m = rho_sqrt(range2_m2), s = -dy_m / range_m, c = dx_m / range_m;
+    for (int i = RHO_Z; i < RHO_KALMAN_STATES; i++) {
+        seen->row[i] = 0.0f;
+    }
+    seen->row[RHO_X] = s;
+    seen->row[RHO_Y] = c;
+    seen->range_m = range_m;
+    seen->off_m = range_m * rho_angle_difference(bearing_rad, rho_atan2(dy_m, dx_m));
     /*
      * The second derivative of the bearing is 1 / range^2 (along times across the line of sight):
      * for errors a along and c across, the linearisation leaves out a c / range metres, with the
      * variance (var a var c + cov^2) / range^2.
      */
     const float *p = kalman->covariance;
-    const float xx = p[RHO_XX], xy = p[RHO_YX], yy = p[RHO_YY], range_m = seen->range_m;
-    const float s = seen->row[RHO_X], c = seen->row[RHO_Y]; /* across (s, c), along (c, -s) */
+    const float xx = p[RHO_XX], xy = p[RHO_YX], yy = p[RHO_YY]; /* across (s, c), along (c, -s) */
     const float across = xx * s * s + 2.0f * xy * s * c + yy * c * c;
     const float along = xx * c * c - 2.0f * xy * s * c + yy * s * s;
     const float both = (xx - yy) * s * c + xy * (c * c - s * s);
@@ -392,14 +351,11 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
                                           float bearing_rad, float sigma_rad)
 {
     struct rho_kalman_bearing seen;
-    if (kalman == NULL) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
     if (!rho_kalman_linearise_bearing(kalman, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
         return RHO_OK;
     }
-    return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2, NULL);
+    return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2);
 }

@@ -8,9 +8,6 @@
 enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_m, float y_a_m,
                                       float x_b_m, float y_b_m)
 {
-    if (!base) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_is_coordinate(x_a_m) || !rho_is_coordinate(y_a_m) || !rho_is_coordinate(x_b_m) ||
         !rho_is_coordinate(y_b_m)) {
         return RHO_ERROR_VALUE;

@@ -92,8 +92,6 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
         !is_valid_sigma(polar->sigma_range_m) || !is_valid_sigma_rad(polar->sigma_azimuth_rad) ||
         (has_z && !(rho_is_within(polar->elevation_rad, -RHO_HALF_PI, RHO_HALF_PI) &&
                     is_valid_sigma_rad(polar->sigma_elevation_rad))) ||
-        (has_rate &&
-         !(is_valid_speed(polar->range_rate_mps) && is_valid_sigma(polar->sigma_range_rate_mps))) ||
         (sensor && !rho_measurement_is_valid_site(sensor))) {
         return RHO_ERROR_VALUE;
     }
@@ -165,7 +163,7 @@ float rho_measurement_factor_max(const struct rho_sensor *sensor)
 int rho_bearing_is_valid(const struct rho_bearing *bearing)
 {
     return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
-           rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
+           is_valid_sigma_rad(bearing->sigma_rad);
 }
 
 void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
@@ -345,24 +343,6 @@ float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_m
         return 0.0f;
     }
     return rho_log(2.0f * v_max_mps / sensor->range_rate_span_mps);
-}
-
-int rho_measurement_bearing_row(const float state[6], float x_m, float y_m, float bearing_rad,
-                                float row[6], float *off_m, float *range_m)
-{
-    float dx_m = state[0] - x_m, dy_m = state[1] - y_m;
-    float range2_m2 = dx_m * dx_m + dy_m * dy_m;
-    if (!(range2_m2 >= RHO_RANGE_LEAST_M * RHO_RANGE_LEAST_M) || !(range2_m2 <= FLT_MAX)) {
-        return 0;
-    }
-    *range_m = rho_sqrt(range2_m2);
-    *off_m = *range_m * rho_angle_difference(bearing_rad, rho_atan2(dy_m, dx_m));
-    for (int i = 2; i < 6; i++) {
-        row[i] = 0.0f;
-    }
-    row[0] = -dy_m / *range_m;
-    row[1] = dx_m / *range_m;
-    return 1;
 }
 
 int rho_measurement_covers(const struct rho_sensor *sensor, float sector_from_rad,

@@ -51,13 +51,13 @@ struct rho_assignment {
     int16_t column_queue[RHO_MAX_PLOTS];
 };
 
-/* Initialises the object; object_size: sizeof *assignment of the caller. Errors: NULL, SIZE. */
+/* Initialises the object; object_size: sizeof *assignment of the caller. Errors: SIZE. */
 RHO_MUST_CHECK enum rho_status rho_assignment_init(struct rho_assignment *assignment,
                                                    size_t object_size);
 
 /*
- * Starts a problem of num_rows x num_columns without pairs. Errors: NULL, STATE, CAPACITY (rows
- * beyond RHO_MAX_TRACKS, columns beyond RHO_MAX_PLOTS). Cost: num_rows + num_columns.
+ * Starts a problem of num_rows x num_columns without pairs. Errors: CAPACITY (rows beyond
+ * RHO_MAX_TRACKS, columns beyond RHO_MAX_PLOTS). Cost: num_rows + num_columns.
  */
 RHO_MUST_CHECK enum rho_status rho_assignment_begin(struct rho_assignment *assignment,
                                                     unsigned num_rows, unsigned num_columns);
@@ -65,16 +65,15 @@ RHO_MUST_CHECK enum rho_status rho_assignment_begin(struct rho_assignment *assig
 /*
  * Adds a pair of a row and a column; a pair of cost >= 0 is ignored. A row holds RHO_MAX_GATE_PLOTS
  * pairs: of more, the one with the highest cost is dropped (of equals the higher column) and
- * pairs_dropped counts it. Errors: NULL, STATE, VALUE (row, column, cost magnitude, a column that
- * the row holds). Cost: RHO_MAX_GATE_PLOTS.
+ * pairs_dropped counts it. Errors: VALUE (row, column, cost magnitude, a column that the row
+ * holds). Cost: RHO_MAX_GATE_PLOTS.
  */
 RHO_MUST_CHECK enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment,
                                                          unsigned row, unsigned column,
                                                          int32_t cost);
 
 /*
- * Finds the assignment of least total cost, which rho_assignment_column then returns. An object
- * that was not initialised is left unchanged.
+ * Finds the assignment of least total cost, which rho_assignment_column then returns.
  * Cost: a row's search visits each pair of its cluster once and picks the nearest column from a
  * list: at worst rows x (pairs + columns^2) of the cluster. Stack: 130 bytes.
  */

@@ -56,9 +56,9 @@ struct rho_crossing {
 };
 
 /*
- * Computes the base from the positions of two sensors. Errors: NULL, VALUE (a place not finite or
- * beyond RHO_LIMIT_POSITION_M, the places nearer to each other than RHO_CROSSING_BASE_MIN_M); *base
- * is unchanged. Cost: an arctangent, a square root. Stack: 56 bytes.
+ * Computes the base from the positions of two sensors. Errors: VALUE (a place not finite or beyond
+ * RHO_LIMIT_POSITION_M, the places nearer to each other than RHO_CROSSING_BASE_MIN_M); *base is
+ * unchanged. Cost: an arctangent, a square root. Stack: 56 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_m,
                                                      float y_a_m, float x_b_m, float y_b_m);

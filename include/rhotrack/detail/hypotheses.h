@@ -150,15 +150,15 @@ struct rho_hypotheses_estimate {
 };
 
 /*
- * Initialises an empty pool; object_size: sizeof *pool; the model is copied. Errors: NULL, SIZE,
- * CONFIG. Cost: clears the object. Stack: 240 bytes.
+ * Initialises an empty pool; object_size: sizeof *pool; the model is copied. Errors: SIZE, CONFIG.
+ * Cost: clears the object. Stack: 240 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_size,
                                                    const struct rho_imm_model *model);
 
 /*
- * Sets the motion model, except for calm_s, whose learned value is kept. Errors: NULL, CONFIG;
- * nothing is changed. Cost: one rho_imm_prepare_step. Stack: 300 bytes.
+ * Sets the motion model, except for calm_s, whose learned value is kept. Errors: CONFIG; nothing
+ * is changed. Cost: one rho_imm_prepare_step. Stack: 300 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
                                                         const struct rho_imm_model *model);
@@ -170,9 +170,9 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *p
 void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s);
 
 /*
- * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all
- * slots taken, or the pool full, and no other track with a hypothesis to spare). Cost:
- * RHO_MAX_TRACKS. Stack: 150 bytes.
+ * Opens a slot with one hypothesis that starts from an estimate. Errors: CAPACITY (all slots
+ * taken, or the pool full, and no other track with a hypothesis to spare). Cost: RHO_MAX_TRACKS.
+ * Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool,
                                                    const struct rho_kalman *estimate,
@@ -190,7 +190,7 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 
 /*
  * Moves all hypotheses of a slot to time_us. A hypothesis that cannot be moved is removed. Errors:
- * NULL, STATE (slot), VALUE (none is left: the slot is closed). Cost: rho_imm_predict each, and
+ * STATE (slot), VALUE (none is left: the slot is closed). Cost: rho_imm_predict each, and
  * rho_imm_prepare_step wherever the interval differs from the last one: once a scan, except for
  * hypotheses whose last plot had an own time. Stack: 490 bytes.
  */
@@ -245,7 +245,7 @@ int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t sl
 /*
  * Ends the scan: the heaviest children of all hypotheses replace their parents. Plots that
  * scan->claims gives to other tracks are left out. An update that is numerically impossible becomes
- * a miss (updates_refused). Errors: NULL, STATE (slot).
+ * a miss (updates_refused). Errors: STATE (slot).
  * Cost: rho_imm_update for each of at most RHO_HYPOTHESES_OF_TRACK. Stack: 850 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot,
@@ -254,7 +254,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool
 
 /*
  * Updates all hypotheses with a plot that is known to be the target's, at its own time. Errors:
- * NULL, STATE (slot), and those of rho_imm_update where it fails for all hypotheses: these are then
+ * STATE (slot), and those of rho_imm_update where it fails for all hypotheses: these are then
  * predicted to the plot's time, or unchanged if that is too far back. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot,
@@ -271,7 +271,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_update_bearing(struct rho_hypothes
                                                              float bearing_rad, float sigma_rad);
 
 /*
- * Fills *estimate with the mean over all hypotheses of a slot, moved to time_us. Errors: NULL,
+ * Fills *estimate with the mean over all hypotheses of a slot, moved to time_us. Errors:
  * STATE (slot), VALUE (no hypothesis can be moved to time_us); *estimate is unchanged. Cost: 450
  * instructions a hypothesis, without heights 300. Stack: 800 bytes.
  */

@@ -46,7 +46,6 @@ extern "C" {
 /* Indices of the accelerations, which follow the elements of kalman.h's state. */
 #define RHO_AX 6
 #define RHO_AY 7
-#define RHO_AZ 8
 
 /* A plot is in the gate if its NIS under either model is at most this. */
 #define RHO_IMM_GATE 30.0f

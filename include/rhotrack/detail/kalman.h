@@ -71,8 +71,8 @@ void rho_kalman_init(struct rho_kalman *kalman);
 
 /*
  * Opens axis 0 (x), 1 (y) or 2 (z) with a first position and its variance, velocity 0 with its
- * variance; covariances with the other axes become 0. Errors: NULL, VALUE (axis, not finite,
- * variance outside RHO_VARIANCE_MIN .. MAX). Constant cost.
+ * variance; covariances with the other axes become 0. Errors: VALUE (axis, not finite, variance
+ * outside RHO_VARIANCE_MIN .. MAX). Constant cost.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis,
                                                     float position_m, float position_variance,
@@ -86,24 +86,16 @@ void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
  * acceleration on each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2
  * dt], so that one long step equals several short ones. Going back (dt_s < 0) adds no noise: forth
  * and back without noise is the identity but for rounding.
- * Errors: NULL, VALUE (arguments, or a result beyond RHO_VARIANCE_MAX; unchanged).
+ * Errors: VALUE (arguments, or a result beyond RHO_VARIANCE_MAX; unchanged).
  * Cost: about 240 instructions. Stack: 72 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s,
                                                   float noise_density);
 
 /*
- * Adds process noise to each open axis: for papers that state Q per step, independent of the
- * interval. Errors: NULL, VALUE (a variance negative or not finite, a result beyond
- * RHO_VARIANCE_MAX); unchanged. Cost: about 60 instructions. Stack: 16 bytes.
- */
-RHO_MUST_CHECK enum rho_status
-rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float velocity_variance);
-
-/*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0
  * (raised to RHO_VARIANCE_MIN). *nis (may be NULL) gets the normalised innovation squared.
- * An element of an axis that is not open is left unchanged. Errors: NULL, VALUE (element, value or
+ * An element of an axis that is not open is left unchanged. Errors: VALUE (element, value or
  * variance, a result not finite), SINGULAR (innovation variance not positive and finite);
  * unchanged. Cost: about 300 instructions. Stack: 144 bytes.
  */
@@ -116,7 +108,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int 
  * Errors: as rho_kalman_update. Cost: about 590 instructions. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
-                                                     float innovation, float variance, float *nis);
+                                                     float innovation, float variance);
 
 /*
  * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened
@@ -165,17 +157,17 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *k
 
 /* A bearing as a scalar measurement, linearised, in metres across the line of sight. */
 struct rho_kalman_bearing {
-    float row[RHO_KALMAN_STATES];
-    float off_m;       /* innovation: measured minus predicted */
-    float variance_m2; /* variance of the noise, and of the linearisation's error */
+    float row[RHO_KALMAN_STATES]; /* (-sin, cos) of x and y */
+    float off_m;                  /* innovation: measured minus predicted */
+    float variance_m2;            /* variance of the noise, and of the linearisation's error */
     float range_m;
 };
 
 /*
  * Linearises a bearing at an estimate, into *seen; the variance includes the error of the
  * linearisation for an uncertain position. Returns 0, and fills nothing, if the estimate is nearer
- * than a metre to the place.
- * Cost: an arctangent, a square root, two divisions. Stack: 96 bytes.
+ * than a metre to the place, or not finite. Cost: an arctangent, a square root, two
+ * divisions. Stack: 96 bytes.
  */
 int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, float y_m,
                                  float bearing_rad, float sigma_rad,
@@ -194,7 +186,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
 /* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
 static inline int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis)
 {
-    return kalman && axis >= 0 && axis < RHO_AXES && kalman->covariance[RHO_AT(axis, axis)] > 0.0f;
+    return kalman->covariance[RHO_AT(axis, axis)] > 0.0f;
 }
 
 #ifdef __cplusplus

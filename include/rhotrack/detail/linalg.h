@@ -3,9 +3,9 @@
  * linalg: small symmetric matrices: Cholesky factors, NIS, scalar Kalman updates, rotations.
  *
  * A symmetric n x n matrix is its lower triangle row by row: element (i, j <= i) at i (i + 1) / 2 +
- * j, n (n + 1) / 2 floats. n <= RHO_LINALG_MAX. Every routine checks positive definiteness where it
- * divides (by a comparison that is false for NaN), and returns an error without changing its
- * operands; rho_linalg_cholesky alone may have changed l.
+ * j, n (n + 1) / 2 floats. Sizes n, 1 .. RHO_LINALG_MAX, and indices are not checked. Every routine
+ * checks positive definiteness where it divides (by a comparison that is false for NaN), and
+ * returns an error without changing its operands; rho_linalg_cholesky alone may have changed l.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -52,8 +52,8 @@ extern const uint8_t rho_linalg_row6[6][6];
 
 /*
  * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a
- * itself). RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is undefined. Also
- * NULL, CAPACITY (n). Cost: n^3 / 6 multiplications, n square roots. Stack: 120 bytes.
+ * itself). Errors: SINGULAR (a pivot is not a positive finite number; l is undefined). Cost: n^3
+ * / 6 multiplications, n square roots. Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
 
@@ -67,14 +67,12 @@ void rho_linalg_backward(int n, const float *l, float *b);
 float rho_linalg_log_determinant(int n, const float *l);
 
 /*
- * Squared Mahalanobis distance d^T S^-1 d and ln det S for 2 x 2 (s: 3 floats) and 3 x 3 (s: 6
- * floats). RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs
- * untouched. Also NULL. Cost: 25 and 60 operations and a logarithm.
+ * Squared Mahalanobis distance d^T S^-1 d and ln det S in num = 2 or 3 dimensions. Errors: SINGULAR
+ * (S is not positive definite, or a result is not finite); outputs untouched. Cost: 25 or 60
+ * operations and a logarithm.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
-                                               float *log_det);
-RHO_MUST_CHECK enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *distance2,
-                                               float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_nis(int num, const float *s, const float *d,
+                                              float *distance2, float *log_det);
 
 /*
  * One scalar Kalman update of a six-element state x with covariance p (21 floats): `element` of x
@@ -82,8 +80,8 @@ RHO_MUST_CHECK enum rho_status rho_linalg_nis3(const float s[6], const float d[3
  * noise. *nis (may be NULL) gets innovation^2 / (p_ii + variance). No variance grows by more than
  * 2^-20 of itself, and a positive definite p stays so in spite of rounding, unless it is singular
  * to within 10^-6 already.
- * Errors: NULL, VALUE (element, innovation or a result not finite), SINGULAR (variance not
- * positive, p_ii negative, or their sum not a number one can divide by); x, p and *nis untouched.
+ * Errors: VALUE (innovation or a result not finite), SINGULAR (variance not positive, p_ii
+ * negative, or their sum not a number one can divide by); x, p and *nis untouched.
  * Cost: about 240 instructions. Stack: 112 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element,
@@ -96,7 +94,7 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21
  * Cost: about 530 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
-                                                      float innovation, float variance, float *nis);
+                                                      float innovation, float variance);
 
 /* projected := p row; returns row . p row, the variance of row . x. Cost: about 90 instructions. */
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6]);
@@ -104,8 +102,7 @@ float rho_linalg_project6(const float p[21], const float row[6], float projected
 /*
  * Scalar Kalman updates of a state of n <= RHO_LINALG_MAX elements with covariance p: by a
  * measurement of `element` of x, or of row . x, where elements of row beyond the first num are 0.
- * Errors: as for six elements, and CAPACITY (n, num). Cost: about 4 n^2 and 6 n^2 instructions.
- * Stack: 250 bytes.
+ * Errors: as for six elements. Cost: about 4 n^2 and 6 n^2 instructions. Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update_element(int n, float *x, float *p, int element,
                                                          float innovation, float variance);

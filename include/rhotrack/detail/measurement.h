@@ -141,16 +141,6 @@ static inline int rho_measurement_is_ambiguous(const struct rho_sensor *sensor)
 }
 
 /*
- * A bearing from a place as a scalar measurement of a state [x y z vx vy vz], in metres across the
- * line of sight: the derivative *row = (-sin, cos) of x and y, *off_m = range times (bearing - the
- * state's own, within +-pi), *range_m. Returns 0, and fills nothing, where the state is nearer than
- * a metre to the place, or not finite. Cost: an arctangent, a square root and a division.
- * Stack: 48 bytes.
- */
-int rho_measurement_bearing_row(const float state[6], float x_m, float y_m, float bearing_rad,
-                                float row[6], float *off_m, float *range_m);
-
-/*
  * True where a scan covers a place: it is within the scan's sector, and the sensor's sector and
  * range limits. A sensor of NULL is at the origin and covers the scan's sector. Cost: an
  * arctangent.

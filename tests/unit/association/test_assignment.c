@@ -430,33 +430,9 @@ static void refused_init_changes_nothing(void **state)
     (void)state;
     memset(&assignment, 0xa5, sizeof assignment);
     before = assignment;
-    assert_int_equal(rho_assignment_init(NULL, sizeof assignment), RHO_ERROR_NULL);
     assert_int_equal(rho_assignment_init(&assignment, sizeof assignment - 1), RHO_ERROR_SIZE);
     assert_int_equal(rho_assignment_init(&assignment, 0), RHO_ERROR_SIZE);
     assert_memory_equal(&assignment, &before, sizeof before);
-}
-
-static void an_object_without_init_is_refused(void **state)
-{
-    (void)state;
-    for (int filling = 0; filling <= 0xff; filling += 0x55) {
-        memset(&assignment, filling, sizeof assignment);
-        before = assignment;
-        assert_int_equal(rho_assignment_begin(&assignment, 1, 1), RHO_ERROR_STATE);
-        assert_int_equal(rho_assignment_offer_pair(&assignment, 0, 0, -1), RHO_ERROR_STATE);
-        rho_assignment_solve(&assignment);
-        assert_int_equal(column_of_row(0), RHO_ASSIGNMENT_NONE);
-        assert_memory_equal(&assignment, &before, sizeof before);
-    }
-}
-
-static void null_is_refused(void **state)
-{
-    (void)state;
-    assert_int_equal(rho_assignment_begin(NULL, 1, 1), RHO_ERROR_NULL);
-    assert_int_equal(rho_assignment_offer_pair(NULL, 0, 0, -1), RHO_ERROR_NULL);
-    rho_assignment_solve(NULL);
-    assert_int_equal(rho_assignment_column(NULL, 0), RHO_ASSIGNMENT_NONE);
 }
 
 static void refused_sizes_change_nothing(void **state)
@@ -532,8 +508,6 @@ int main(void)
         cmocka_unit_test_setup(a_problem_of_full_size_is_solved_exactly, initialise),
         cmocka_unit_test_setup(the_same_input_gives_the_same_answer, initialise),
         cmocka_unit_test_setup(refused_init_changes_nothing, initialise),
-        cmocka_unit_test_setup(an_object_without_init_is_refused, initialise),
-        cmocka_unit_test_setup(null_is_refused, initialise),
         cmocka_unit_test_setup(refused_sizes_change_nothing, initialise),
         cmocka_unit_test_setup(refused_pairs_change_nothing, initialise),
         cmocka_unit_test_setup(only_initialised_memory_is_ready, initialise),

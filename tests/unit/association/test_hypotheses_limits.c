@@ -697,16 +697,9 @@ static void arguments_are_checked(void **state)
     (void)state;
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     bad.memory_s = 0.0f;
-    assert_int_equal(rho_hypotheses_init(NULL, sizeof pool, &model), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool - 1, &model), RHO_ERROR_SIZE);
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &bad), RHO_ERROR_CONFIG);
-    memset(&pool, 0, sizeof pool);
-    assert_int_equal(rho_hypotheses_open(&pool, &first, 0, &slot), RHO_ERROR_STATE);
     init_pool();
-    assert_int_equal(rho_hypotheses_open(NULL, &first, 0, &slot), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_open(&pool, NULL, 0, &slot), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_open(&pool, &first, 0, NULL), RHO_ERROR_NULL);
     memcpy(&copy, &pool, sizeof pool);
     for (int k = 0; k < 3; ++k) {
         static const uint16_t no_slots[] = {0, RHO_HYPOTHESES_SLOTS, UINT16_MAX};
@@ -727,21 +720,6 @@ static void arguments_are_checked(void **state)
     }
     assert_memory_equal(&copy, &pool, sizeof pool);
     assert_int_equal(rho_hypotheses_open(&pool, &first, 0, &slot), RHO_OK);
-    assert_int_equal(rho_hypotheses_predict(NULL, slot, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_commit(NULL, slot, &scan, &outcome), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_commit(&pool, slot, NULL, &outcome), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_update(NULL, slot, &seen, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_update(&pool, slot, NULL, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_update_bearing(NULL, slot, 0, 0.0f, 0.0f, 0.0f, 0.1f),
-                     RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_estimate(NULL, slot, 0, &estimate), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_estimate(&pool, slot, 0, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_score_plot(NULL, slot, &seen, 0, 0, 0.0f, &thin, &gain_nat), 0);
-    assert_int_equal(rho_hypotheses_score_plot(&pool, slot, NULL, 0, 0, 0.0f, &thin, &gain_nat), 0);
-    assert_int_equal(rho_hypotheses_count(NULL, slot), 0);
-    rho_hypotheses_close(NULL, slot);
-    rho_hypotheses_gate_box(NULL, slot, NULL);
     assert_true(gain_nat == 7.0f);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 1);
 }
@@ -783,7 +761,6 @@ static void prediction_back_without_noise_is_reversible(void **state)
         assert_float_equal(imm->state[i], was.state[i], 1e-3 * (1.0 + fabs(was.state[i])));
     }
     assert_float_equal(imm->covariance[0], was.covariance[0], 0.01 * was.covariance[0]);
-    assert_int_equal(rho_hypotheses_move(NULL, slot, 0), RHO_ERROR_NULL);
     assert_int_equal(rho_hypotheses_move(&pool, slot + 1, 0), RHO_ERROR_STATE);
 }
 
@@ -833,8 +810,6 @@ static void the_motion_model_of_a_pool_can_be_replaced(void **state)
     memcpy(&before, &pool, sizeof pool);
     model.memory_s = NAN;
     assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_ERROR_CONFIG);
-    assert_int_equal(rho_hypotheses_set_model(&pool, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_set_model(NULL, &model), RHO_ERROR_NULL);
     assert_memory_equal(&pool, &before, sizeof pool);
 }
 

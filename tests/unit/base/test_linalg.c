@@ -219,30 +219,6 @@ static void cholesky_refuses_nan_infinity_and_overflow_in_any_element(void **sta
     }
 }
 
-static void sizes_and_pointers_are_checked(void **state)
-{
-    const int sizes[] = {0, -1, RHO_LINALG_MAX + 1, INT32_MAX, INT32_MIN};
-    float one[78], b[12];
-
-    (void)state;
-    fill(one, NUM(one), 1.0f);
-    fill(b, NUM(b), GUARD);
-    assert_cholesky_refuses(2, NULL, RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_cholesky(2, one, NULL), RHO_ERROR_NULL);
-    for (size_t i = 0; i < NUM(sizes); ++i) {
-        assert_cholesky_refuses(sizes[i], one, RHO_ERROR_CAPACITY);
-        rho_linalg_forward(sizes[i], one, b);
-        rho_linalg_backward(sizes[i], one, b);
-        assert_true(isnan(rho_linalg_log_determinant(sizes[i], one)));
-    }
-    rho_linalg_forward(2, NULL, b);
-    rho_linalg_forward(2, one, NULL);
-    rho_linalg_backward(2, NULL, b);
-    rho_linalg_backward(2, one, NULL);
-    assert_all_equal_to(b, NUM(b), GUARD);
-    assert_true(isnan(rho_linalg_log_determinant(2, NULL)));
-}
-
 /* --- normalised innovation squared (NIS) ----------------------------------------------------- */
 
 static void nis_of_two_dimensions_agrees_with_the_reference(void **state)
@@ -252,7 +228,7 @@ static void nis_of_two_dimensions_agrees_with_the_reference(void **state)
         const struct gate2_vector *v = &gate2_vectors[i];
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
-        assert_int_equal(rho_linalg_nis2(v->s, v->d, distance2, log_det), RHO_OK);
+        assert_int_equal(rho_linalg_nis(2, v->s, v->d, distance2, log_det), RHO_OK);
         assert_near_reference(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
@@ -266,7 +242,7 @@ static void nis_of_three_dimensions_agrees_with_the_reference(void **state)
         const struct gate3_vector *v = &gate3_vectors[i];
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
-        assert_int_equal(rho_linalg_nis3(v->s, v->d, distance2, log_det), RHO_OK);
+        assert_int_equal(rho_linalg_nis(3, v->s, v->d, distance2, log_det), RHO_OK);
         assert_near_reference(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
@@ -281,10 +257,10 @@ static void nis_of_diagonal_matrices_is_exact(void **state)
     float distance2, log_det;
 
     (void)state;
-    assert_int_equal(rho_linalg_nis2(s2, d2, &distance2, &log_det), RHO_OK);
+    assert_int_equal(rho_linalg_nis(2, s2, d2, &distance2, &log_det), RHO_OK);
     assert_true(distance2 == 13.0f);
     assert_float_equal(log_det, log(4.0), 1e-6);
-    assert_int_equal(rho_linalg_nis3(s3, d3, &distance2, &log_det), RHO_OK);
+    assert_int_equal(rho_linalg_nis(3, s3, d3, &distance2, &log_det), RHO_OK);
     assert_true(distance2 == 6.0f);
     assert_float_equal(log_det, log(64.0), 1e-6);
 }
@@ -294,9 +270,9 @@ static void assert_nis_refused(const float s[6], const float d[3], int try2)
     float distance2 = GUARD, log_det = GUARD;
 
     if (try2) {
-        assert_int_equal(rho_linalg_nis2(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
+        assert_int_equal(rho_linalg_nis(2, s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
     }
-    assert_int_equal(rho_linalg_nis3(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
+    assert_int_equal(rho_linalg_nis(3, s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
     assert_true(distance2 == GUARD && log_det == GUARD);
 }
 
@@ -347,23 +323,6 @@ static void nis_refuses_indefinite_matrices_and_overflow(void **state)
     assert_nis_refused(s, zero, 0);
     assert_nis_refused(huge, zero, 1);
     assert_nis_refused(tiny, zero, 0);
-}
-
-static void nis_checks_its_pointers(void **state)
-{
-    const float s[6] = {2.0f, 0.5f, 2.0f, 0.5f, 0.5f, 2.0f}, d[3] = {0.0f};
-    float v = GUARD;
-
-    (void)state;
-    assert_int_equal(rho_linalg_nis2(NULL, d, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_nis2(s, NULL, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_nis2(s, d, NULL, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_nis2(s, d, &v, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_nis3(NULL, d, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_nis3(s, NULL, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_nis3(s, d, NULL, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_nis3(s, d, &v, NULL), RHO_ERROR_NULL);
-    assert_true(v == GUARD);
 }
 
 /* --- update of one element ------------------------------------------------------------------- */
@@ -447,7 +406,6 @@ static void an_element_update_refuses_bad_numbers(void **state)
     const struct estimate e = test_estimate();
     const float no_variance[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY};
     const float no_innovation[] = {NAN, INFINITY, -INFINITY, FLT_MAX, 1e25f};
-    const int no_index[] = {-1, STATES, INT32_MAX, INT32_MIN};
 
     (void)state;
     for (size_t i = 0; i < NUM(no_variance); ++i) {
@@ -455,9 +413,6 @@ static void an_element_update_refuses_bad_numbers(void **state)
     }
     for (size_t i = 0; i < NUM(no_innovation); ++i) {
         assert_update_refused(e, 2, no_innovation[i], 1.0f, RHO_ERROR_VALUE);
-    }
-    for (size_t i = 0; i < NUM(no_index); ++i) {
-        assert_update_refused(e, no_index[i], 1.0f, 1.0f, RHO_ERROR_VALUE);
     }
 }
 
@@ -489,17 +444,11 @@ static void an_element_update_refuses_a_bad_estimate(void **state)
     assert_update_refused(e, 2, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR); /* the sum overflows */
 }
 
-static void an_element_update_checks_its_pointers(void **state)
+static void an_element_update_needs_no_nis(void **state)
 {
     struct estimate e = test_estimate();
-    const struct estimate old = e;
-    float nis = GUARD;
 
     (void)state;
-    assert_int_equal(rho_linalg_update6_element(NULL, e.p, 0, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_update6_element(e.x, NULL, 0, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
-    assert_memory_equal(&e, &old, sizeof e);
-    assert_true(nis == GUARD);
     assert_int_equal(rho_linalg_update6_element(e.x, e.p, 0, 1.0f, 1.0f, NULL), RHO_OK);
 }
 
@@ -538,18 +487,16 @@ int main(void)
         cmocka_unit_test(forward_then_backward_substitution_solves_the_equations),
         cmocka_unit_test(cholesky_refuses_matrices_that_are_not_positive_definite),
         cmocka_unit_test(cholesky_refuses_nan_infinity_and_overflow_in_any_element),
-        cmocka_unit_test(sizes_and_pointers_are_checked),
         cmocka_unit_test(nis_of_two_dimensions_agrees_with_the_reference),
         cmocka_unit_test(nis_of_three_dimensions_agrees_with_the_reference),
         cmocka_unit_test(nis_of_diagonal_matrices_is_exact),
         cmocka_unit_test(nis_refuses_bad_matrices_and_innovations),
         cmocka_unit_test(nis_refuses_indefinite_matrices_and_overflow),
-        cmocka_unit_test(nis_checks_its_pointers),
         cmocka_unit_test(an_element_update_agrees_with_the_formula),
         cmocka_unit_test(an_element_update_raises_variances_by_rounding_at_most),
         cmocka_unit_test(an_element_update_refuses_bad_numbers),
         cmocka_unit_test(an_element_update_refuses_a_bad_estimate),
-        cmocka_unit_test(an_element_update_checks_its_pointers),
+        cmocka_unit_test(an_element_update_needs_no_nis),
         cmocka_unit_test(a_projected_covariance_agrees_with_the_full_product),
     };
 

@@ -93,7 +93,6 @@ static void init_sets_state_and_covariance_to_zero(void **state)
         assert_true(cell.kalman.covariance[i] == 0.0f);
     }
     assert_true(cell.before == GUARD && cell.after == GUARD);
-    rho_kalman_init(NULL);
 }
 
 static void an_axis_is_open_after_it_was_opened(void **state)
@@ -110,11 +109,6 @@ static void an_axis_is_open_after_it_was_opened(void **state)
         assert_true(kalman.covariance[RHO_AT(axis, axis)] == 4.0f);
         assert_true(kalman.covariance[RHO_AT(axis + 3, axis + 3)] == 9.0f);
     }
-    assert_int_equal(rho_kalman_has_axis(&kalman, -1), 0);
-    assert_int_equal(rho_kalman_has_axis(&kalman, 3), 0);
-    assert_int_equal(rho_kalman_has_axis(&kalman, INT32_MAX), 0);
-    assert_int_equal(rho_kalman_has_axis(&kalman, INT32_MIN), 0);
-    assert_int_equal(rho_kalman_has_axis(NULL, 0), 0);
 }
 
 static void opening_an_axis_again_removes_its_correlations(void **state)

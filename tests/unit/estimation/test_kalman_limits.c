@@ -22,7 +22,6 @@ static void open_axis_refuses_bad_arguments(void **state)
     const struct rho_kalman before = kalman;
 
     (void)state;
-    assert_int_equal(rho_kalman_open_axis(NULL, 0, 0.0f, 1.0f, 1.0f), RHO_ERROR_NULL);
     for (size_t i = 0; i < NUM(bad_variances); ++i) {
         assert_int_equal(rho_kalman_open_axis(&kalman, 0, 0.0f, bad_variances[i], 1.0f),
                          RHO_ERROR_VALUE);
@@ -68,7 +67,6 @@ static void a_prediction_refuses_bad_arguments(void **state)
     const float bad_densities[] = {NAN, INFINITY, -INFINITY, -1e-9f, -FLT_MAX};
 
     (void)state;
-    assert_int_equal(rho_kalman_predict(NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
     for (size_t i = 0; i < NUM(bad_times); ++i) {
         assert_prediction_refused(kalman, bad_times[i], 1.0f);
     }
@@ -137,7 +135,6 @@ static void an_update_refuses_bad_arguments(void **state)
     const int bad_elements[] = {-1, STATES, INT32_MAX, INT32_MIN};
 
     (void)state;
-    assert_int_equal(rho_kalman_update(NULL, 0, 1.0f, 1.0f, NULL), RHO_ERROR_NULL);
     for (size_t i = 0; i < NUM(bad_values); ++i) {
         assert_update_refused(kalman, 1, bad_values[i], 1.0f, RHO_ERROR_VALUE);
     }

@@ -39,16 +39,15 @@ static void rows_agree_with_the_joseph_form(void **state)
         struct rho_kalman kalman = random_estimate(3.0);
         const struct dense before = dense_of(kalman.state, kalman.covariance);
         struct dense expected = before;
-        float row[STATES], nis = GUARD;
+        float row[STATES];
 
         for (int i = 0; i < STATES; ++i) {
             row[i] = (float)normal();
         }
         const struct dense_measurement measured = dense_row_measurement(row, 12.5, 4.0);
-        const double expected_nis = dense_update(&expected, &measured);
-        assert_int_equal(rho_kalman_update_row(&kalman, row, 12.5f, 4.0f, &nis), RHO_OK);
+        (void)dense_update(&expected, &measured);
+        assert_int_equal(rho_kalman_update_row(&kalman, row, 12.5f, 4.0f), RHO_OK);
         assert_near_dense(kalman.state, kalman.covariance, &expected, &before, ROW_RELATIVE);
-        assert_float_equal(nis, expected_nis, 1e-3 * expected_nis);
         assert_true(is_positive_definite(&kalman));
     }
 }
@@ -60,19 +59,17 @@ static void a_row_update_agrees_with_a_result_by_hand(void **state)
 {
     const float mean[STATES] = {0.5f, 0.5f};
     struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
-    float nis = GUARD;
 
     (void)state;
-    assert_int_equal(rho_kalman_update_row(&kalman, mean, 6.0f, 2.0f, &nis), RHO_OK);
+    assert_int_equal(rho_kalman_update_row(&kalman, mean, 6.0f, 2.0f), RHO_OK);
     assert_float_equal(kalman.state[0], 103.0, 1e-4);
     assert_float_equal(kalman.state[1], 203.0, 1e-4);
     assert_float_equal(kalman.covariance[RHO_AT(0, 0)], 3.0, 1e-5);
     assert_float_equal(kalman.covariance[RHO_AT(1, 1)], 3.0, 1e-5);
     assert_float_equal(kalman.covariance[RHO_AT(1, 0)], -1.0, 1e-5);
-    assert_float_equal(nis, 9.0, 1e-5);
     assert_float_equal(kalman.covariance[RHO_AT(3, 3)], 9.0, 1e-4);
     assert_true(kalman.state[3] == 0.0f);
-    assert_int_equal(rho_kalman_update_row(&kalman, mean, 6.0f, 2.0f, NULL), RHO_OK);
+    assert_int_equal(rho_kalman_update_row(&kalman, mean, 6.0f, 2.0f), RHO_OK);
 }
 
 static void rows_leave_a_closed_axis_zero(void **state)
@@ -82,7 +79,7 @@ static void rows_leave_a_closed_axis_zero(void **state)
     (void)state;
     for (int k = 0; k < 20; ++k) {
         assert_int_equal(rho_kalman_predict(&kalman, 1.5f, 3.0f), RHO_OK);
-        assert_int_equal(rho_kalman_update_row(&kalman, some_row, 5.0f, 2.0f, NULL), RHO_OK);
+        assert_int_equal(rho_kalman_update_row(&kalman, some_row, 5.0f, 2.0f), RHO_OK);
         assert_true(kalman.state[2] == 0.0f && kalman.state[5] == 0.0f);
         for (int i = 0; i < STATES; ++i) {
             assert_true(kalman.covariance[RHO_AT(2, i)] == 0.0f);
@@ -100,21 +97,17 @@ static void row_variances_below_the_minimum_act_as_the_minimum(void **state)
     for (int element = 0; element < STATES; ++element) {
         struct rho_kalman floor = opened_filter(3, 2e-9f, 2e-9f);
         const struct rho_kalman before = floor;
-        float row[STATES] = {0.0f}, floor_nis = GUARD;
+        float row[STATES] = {0.0f};
 
         row[element] = 1.0f;
-        assert_int_equal(rho_kalman_update_row(&floor, row, 3e-5f, RHO_VARIANCE_MIN, &floor_nis),
-                         RHO_OK);
+        assert_int_equal(rho_kalman_update_row(&floor, row, 3e-5f, RHO_VARIANCE_MIN), RHO_OK);
         assert_true(floor.covariance[RHO_AT(element, element)] == RHO_VARIANCE_MIN);
         assert_finite_with_variances_in_limits(&floor);
         for (size_t k = 0; k < NUM(variances); ++k) {
             struct rho_kalman kalman = before;
-            float nis = GUARD;
 
-            assert_int_equal(rho_kalman_update_row(&kalman, row, 3e-5f, variances[k], &nis),
-                             RHO_OK);
+            assert_int_equal(rho_kalman_update_row(&kalman, row, 3e-5f, variances[k]), RHO_OK);
             assert_memory_equal(&kalman, &floor, sizeof floor);
-            assert_true(nis == floor_nis);
         }
     }
 }
@@ -132,8 +125,7 @@ static void a_vague_start_with_sharp_rows_stays_positive_definite(void **state)
             for (int i = 0; i < STATES; ++i) {
                 row[i] = (float)normal();
             }
-            assert_int_equal(rho_kalman_update_row(&kalman, row, (float)normal(), 1.0f, NULL),
-                             RHO_OK);
+            assert_int_equal(rho_kalman_update_row(&kalman, row, (float)normal(), 1.0f), RHO_OK);
             assert_finite_with_variances_in_limits(&kalman);
             assert_true(is_positive_definite(&kalman));
             assert_int_equal(rho_kalman_predict(&kalman, 1.0f, 0.0f), RHO_OK);
@@ -148,11 +140,9 @@ static void assert_row_refused(struct rho_kalman kalman, const float *row, float
                                float variance, enum rho_status expected)
 {
     const struct rho_kalman before = kalman;
-    float nis = GUARD;
 
-    assert_int_equal(rho_kalman_update_row(&kalman, row, innovation, variance, &nis), expected);
+    assert_int_equal(rho_kalman_update_row(&kalman, row, innovation, variance), expected);
     assert_changed_nothing(&kalman, &before);
-    assert_true(nis == GUARD);
 }
 
 static void a_row_update_refuses_bad_arguments(void **state)
@@ -163,8 +153,6 @@ static void a_row_update_refuses_bad_arguments(void **state)
     const float bad_elements[] = {NAN, INFINITY, -INFINITY, FLT_MAX};
 
     (void)state;
-    assert_int_equal(rho_kalman_update_row(NULL, some_row, 1.0f, 1.0f, NULL), RHO_ERROR_NULL);
-    assert_row_refused(kalman, NULL, 1.0f, 1.0f, RHO_ERROR_NULL);
     for (size_t k = 0; k < NUM(bad_innovations); ++k) {
         assert_row_refused(kalman, some_row, bad_innovations[k], 1.0f, RHO_ERROR_VALUE);
     }
@@ -309,7 +297,6 @@ static void range_rates_refuse_bad_arguments(void **state)
     struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
 
     (void)state;
-    assert_int_equal(rho_kalman_update_range_rate(NULL, NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
     for (size_t k = 0; k < NUM(bad_rates); ++k) {
         assert_rate_refused(kalman, bad_rates[k], 1.0f, RHO_ERROR_VALUE);
     }

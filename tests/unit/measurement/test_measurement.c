@@ -448,42 +448,6 @@ static void a_place_is_covered_within_sector_and_range(void **state)
 
 /* ---- bearings, learned sigmas, time biases --------------------------------------------------- */
 
-/* Compared with the innovation in double precision. */
-static void the_innovation_of_a_bearing_is_in_metres_across(void **state)
-{
-    (void)state;
-    for (int n = 0; n < 500; n++) {
-        const float state_m[6] = {(float)uniform(-5e4, 5e4), (float)uniform(-5e4, 5e4)};
-        const double dx = (double)state_m[0] - 300.0, dy = (double)state_m[1] + 700.0;
-        const double range = hypot(dx, dy), off_rad = uniform(-0.1, 0.1);
-        const double bearing = remainder(atan2(dy, dx) + off_rad, 2.0 * PI);
-        float row[6], off_m = 0.0f, range_m = 0.0f;
-
-        assert_true(rho_measurement_bearing_row(state_m, 300.0f, -700.0f, (float)bearing, row,
-                                                &off_m, &range_m));
-        assert_true(fabs(range_m - range) <= 1e-6 * range);
-        assert_true(fabs(off_m - range * off_rad) <= 2e-6 * range);
-        assert_true(fabs(row[0] + dy / range) <= 1e-6 && fabs(row[1] - dx / range) <= 1e-6);
-        for (int i = 2; i < 6; i++) {
-            assert_true(row[i] == 0.0f);
-        }
-    }
-}
-
-static void a_bearing_needs_a_metre_of_range_and_finite_states(void **state)
-{
-    float row[6] = {7.0f}, off_m = 7.0f, range_m = 7.0f;
-    const float near_m[6] = {0.5f, 0.5f}, none_m[6] = {NAN, 0.0f}, far_m[6] = {INFINITY, 0.0f};
-    const float at_m[6] = {1.0f, 0.0f};
-
-    (void)state;
-    assert_false(rho_measurement_bearing_row(near_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-    assert_false(rho_measurement_bearing_row(none_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-    assert_false(rho_measurement_bearing_row(far_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-    assert_true(row[0] == 7.0f && off_m == 7.0f && range_m == 7.0f);
-    assert_true(rho_measurement_bearing_row(at_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-}
-
 static void bearings_out_of_range_are_invalid(void **state)
 {
     const struct rho_bearing good = {.bearing_rad = RHO_PI, .sigma_rad = 0.002f};
@@ -551,8 +515,6 @@ int main(void)
         cmocka_unit_test(plots_without_a_line_of_sight_are_isotropic),
         cmocka_unit_test(predicted_range_rates_and_their_derivatives_are_right),
         cmocka_unit_test(a_place_is_covered_within_sector_and_range),
-        cmocka_unit_test(the_innovation_of_a_bearing_is_in_metres_across),
-        cmocka_unit_test(a_bearing_needs_a_metre_of_range_and_finite_states),
         cmocka_unit_test(bearings_out_of_range_are_invalid),
         cmocka_unit_test(learned_percentages_scale_the_sigmas),
         cmocka_unit_test(time_biases_are_rounded_to_microseconds),
