@@ -176,11 +176,102 @@ refuses() {
     check "$1: nothing is written" test "$(cat kept.csv)" = 'as it was'
 }
 refuses 'a time that is none' time.csv 3 's/^10,/ten,/'
-refuses 'a time that the truth does not have' other.csv 9 's/^40,/41,/'
+refuses 'tracks of another recording' other.csv '2' 's/$/0/; 2,$s/^/9/'
 refuses 'an identity that is none' id.csv 5 's/,9,/,9.5,/'
 refuses 'an unknown status' status.csv 2 's/confirmed/sure/'
 refuses 'a place that is none' place.csv 6 's/,300,/,x,/'
 refuses 'a covariance that is none' covariance.csv 4 's/,5$/,y/'
+
+# ---- a truth of other times than the tracks' ----
+
+# own_times FILE: two targets, a row a second for a minute, the second one .4 s behind the first.
+own_times() {
+    awk 'BEGIN {
+        print "t_s,target_id,x_m,y_m"
+        for (k = 0; k < 60; k++) {
+            print k ",1," 15 * k ",0"
+            print k + .4 ",2," 12 * (k + .4) ",7000"
+        }
+    }' >"$1"
+}
+# tracks_of FROM UNTIL STEP FILE: tracks of both, without error.
+tracks_of() {
+    awk -v from="$1" -v until="$2" -v step="$3" 'BEGIN {
+        print "t_s,track_id,x_m,y_m,vx_mps,vy_mps"
+        for (t = from; t <= until + 1e-9; t += step) {
+            printf "%.6f,3,%.3f,0,15,0\n%.6f,4,%.3f,7000,12,0\n", t, 15 * t, t, 12 * t
+        }
+    }' >"$4"
+}
+own_times own.csv
+tracks_of 1 59 1 at_first.csv
+run evaluate own.csv at_first.csv --json -o own.csv.svg
+check 'each target at its own times: no false track' json stdout \
+    '(o["false_per_scan"] == 0 and o["false_tracks"] == 0 and o["rmse_m"] < 1e-9
+    and o["switches"] == 0 and o["completeness"] > .98)'
+check 'each target at its own times: the scans of the tracks, and one before them' json stdout \
+    '[s["t_s"] for s in o["over_time"]] == list(range(60)) and o["delay_scans"] == .5'
+check 'each target at its own times: by target' json stdout \
+    '[(t["first_s"], t["last_s"], t["scans"], t["completeness"]) for t in o["by_target"]] == [
+    (0, 59, 60, 59 / 60), (1, 59, 59, 1)]'
+check 'each target at its own times: a picture' grep -q '</svg>' own.csv.svg
+run evaluate own.csv at_first.csv -o rows.csv
+check 'each target at its own times: rows over time' sh -c \
+    "test \$(wc -l <rows.csv) -eq 61 && tail -1 rows.csv | grep -q '^59.000000,2,2,2,0,'"
+tracks_of 0.77 58.77 0.5 elsewhere.csv
+run evaluate own.csv elsewhere.csv --json
+check 'tracks at times that the truth lacks' json stdout \
+    '(o["false_per_scan"] == 0 and o["rmse_m"] < 1e-3 and o["scans"] == 119
+    and o["completeness"] == 234 / 236)'
+awk -F, 'NR == 1 || $1 <= 10.1 || $1 >= 50' elsewhere.csv >twice.csv
+sed -i 's/^\(5.\.[0-9]*\),3/\1,13/; s/^\(5.\.[0-9]*\),4/\1,14/' twice.csv
+run evaluate own.csv twice.csv --json
+check 'where no track lives there are scans, too' json stdout \
+    '(o["scans"] == 119 and o["completeness"] == 74 / 236
+    and o["switches"] == 2 and o["fragments"] == 2)'
+
+# Tracks that go on while the second target is away for 20 s, and 6 s longer than both.
+awk -F, '$2 != 2 || $1 < 20 || $1 > 40' own.csv >away.csv
+tracks_of 1 65 1 longer.csv
+run evaluate away.csv longer.csv --json
+check 'in a gap, and after its last row, there is no target' json stdout \
+    '[s["gospa_false"] for s in o["over_time"]] == [0] * 20 + [1] * 21 + [0] * 19 + [2] * 6'
+run evaluate away.csv longer.csv --json --set truth_gap_s=25
+check 'a gap is longer than truth_gap_s' json stdout \
+    '[s["gospa_false"] for s in o["over_time"]] == [0] * 60 + [2] * 6'
+run evaluate own.csv at_first.csv --json --set truth_gap_s=.9
+check 'every interval may be one' json stdout 'o["pairs"] == 59 and o["completeness"] > .98'
+run evaluate own.csv at_first.csv --set truth_gap_s=-1
+check 'a gap below 0' says 2 '*truth_gap_s*'
+
+# A turn at 8 m/s^2, a row each 4 s: the velocities say where it was between.
+awk 'BEGIN {
+    print "t_s,target_id,x_m,y_m,vx_mps,vy_mps" >"bent.csv"
+    print "t_s,track_id,x_m,y_m,vx_mps,vy_mps" >"bent_tracks.csv"
+    for (t = 0; t <= 24; t++) {
+        row = "1," 200 * t "," 4 * t * t ",200," 8 * t
+        if (t % 4 == 0) print t "," row >"bent.csv"
+        print t "," row >"bent_tracks.csv"
+    }
+}'
+run evaluate bent.csv bent_tracks.csv --json
+check 'a second sensor between: places and velocities' json stdout \
+    'o["scans"] == 25 == o["pairs"] and o["rmse_m"] < 1e-6 and o["rmse_mps"] < 1e-6'
+cut -d, -f1-4 bent.csv >straight.csv
+run evaluate straight.csv bent_tracks.csv --json
+check '... without velocities straight' json stdout \
+    '(abs(max(s["rmse_m"] for s in o["over_time"]) - 16) < 1e-6 and o["rmse_mps"] is None)'
+run evaluate bent_tracks.csv bent.csv
+check 'the other way round these are tracks' exits 2
+sed 's/target_id/track_id/' bent.csv >slow_tracks.csv
+sed 's/track_id/target_id/' bent_tracks.csv >fast.csv
+run evaluate fast.csv slow_tracks.csv --json
+check 'rows of the truth between any two scans are no scans' json stdout \
+    'o["scans"] == 7 and o["completeness"] == 1'
+awk -F, 'NR == 1 || $1 != 12' bent_tracks.csv >missed.csv
+run evaluate fast.csv missed.csv --json
+check 'a scan without a track is one, where truth and tracks share their times' json stdout \
+    'o["scans"] == 25 and abs(o["completeness"] - 24 / 25) < 1e-9'
 
 # ---- 1000 targets, 200 scans: 400 000 rows ----
 

@@ -83,14 +83,18 @@ static const struct command commands[] = {
      "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "
      "and "
      "their\n"
-     "consistency (NEES) of a tracks file against a truth file. Times must agree to 1 ms; "
-     "confirmed "
-     "and\n"
-     "coasting tracks count. -o FILE.svg draws GOSPA, its parts, and the numbers of targets and "
-     "tracks\n"
-     "over time; -o FILE.csv writes these figures, a row a time. --json has them, too (over_time), "
-     "and\n"
-     "every target's (by_target).\n"},
+     "consistency (NEES) of a tracks file against a truth file; confirmed and coasting tracks "
+     "count.\n"
+     "A truth without the tracks' times is interpolated to them. A target exists from its first "
+     "to\n"
+     "its last row, gaps apart: rows farther apart than truth_gap_s, by default 5 times their "
+     "median\n"
+     "interval. Tracks where no target is are false.\n"
+     "\n"
+     "-o FILE.svg draws GOSPA, its parts, and the numbers of targets and tracks over time; -o "
+     "FILE.csv\n"
+     "writes these figures, a row a time. --json has them, too (over_time), and every target's\n"
+     "(by_target).\n"},
     {"plot", command_plot,
      "scans|tracks|parameter-space|errors|clutter-map FILES... -o NAME.svg|.png|.html", 2, INT_MAX,
      "omsCN", "pictures",

@@ -184,7 +184,9 @@
     X(REFERENCE_SENSOR, "reference_sensor", "-", 0, -2147483648.0, 2147483647, 1, 0,               \
       "register: the radar whose time counts as right; unset: the lowest number")                  \
     X(TIME_TOLERANCE_S, "time_tolerance_s", "s", 0.001, 0.001, 60, 0, 1,                           \
-      "evaluate: the truth's times have the nearest tracks, so far off at most, led there")
+      "evaluate: the truth's times have the nearest tracks, so far off at most, led there")        \
+    X(TRUTH_GAP_S, "truth_gap_s", "s", 0, 0, 1e6, 0, 1,                                            \
+      "evaluate: no target between truth rows farther apart; 0: 5 times its usual interval")
 
 enum parameter_id {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,
