@@ -190,14 +190,14 @@ static bool find_target(const struct truth_path *path, int64_t time_us, int64_t 
                         struct timed_point *target)
 {
     size_t at = index_of_row_before(path, time_us);
-    const struct timed_point *before = &path->rows[at], *near_by;
+    const struct timed_point *before = &path->rows[at];
 
     if (before->time_us < time_us && at + 1 < path->count &&
         before[1].time_us - before->time_us <= path->gap_us) {
         *target = *before;
         target->point = point_between(before, &before[1], time_us);
     } else {
-        near_by = row_near(path, time_us, tolerance_us);
+        const struct timed_point *near_by = row_near(path, time_us, tolerance_us);
         if (near_by == NULL) {
             return false;
         }
@@ -399,10 +399,11 @@ static struct time_list times_of_scans(const struct timed_points *truth,
 {
     struct time_list times = {0}, track_times = times_of(tracks, true);
     struct track_lives lives = lives_of(tracks, &track_times);
-    const int64_t first_us = track_times.us[0], last_us = track_times.us[track_times.count - 1];
+    const int64_t first_us = tracks->list[0].time_us;
+    const int64_t before_us = first_us - truth->list[0].time_us;
+    const int64_t after_us = truth->list[truth->count - 1].time_us;
     const int64_t interval_us =
         lives.interval_us > 0 ? lives.interval_us : interval_of_targets_us(paths);
-    const int64_t before_us = first_us - truth->list[0].time_us;
 
     if (before_us > 0 && interval_us > 0) {
         /* counted back from the first time of the tracks */
@@ -415,8 +416,10 @@ static struct time_list times_of_scans(const struct timed_points *truth,
             fill_times(&times, track_times.us[i], track_times.us[i + 1], interval_us);
         }
     }
-    fill_times(&times, last_us, truth->list[truth->count - 1].time_us + (interval_us + 1) / 2,
-               interval_us);
+    if (track_times.count > 0) {
+        fill_times(&times, track_times.us[track_times.count - 1], after_us + (interval_us + 1) / 2,
+                   interval_us);
+    }
     free(lives.going_on);
     free(track_times.us);
     return times;
