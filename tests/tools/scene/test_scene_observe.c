@@ -269,6 +269,36 @@ static void random_fades_suppress_their_share_of_plots(void **state)
     free_observation(run, scene);
 }
 
+static void fades_count_in_their_part_of_the_coverage(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = observe_scene_text(
+        SCENE("16000", RADAR(", \"pd\": 0.95"),
+              ",\"targets\": [{\"at_m\": [40000, 10000], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [60000, 10000], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [-40000, 10000], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [0, -40000], \"speed_mps\": 0, \"heading_rad\": 0, \"body\": "
+              "{\"length_m\": 9, \"width_m\": 2, \"scatterers\": 1, \"seen\": 1}}],"
+              "\"events\": ["
+              "{\"kind\": \"fades\", \"sector_rad\": [-1.2, 1.2], \"pd\": 0.45},"
+              "{\"kind\": \"fades\", \"range_m\": [50000, 70000], \"pd\": 0.25},"
+              "{\"kind\": \"fades\", \"sector_rad\": [-2, -1], \"pd\": 0.7}]"),
+        &scene, 1);
+    size_t seen[4] = {0};
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            seen[run->scans[i].plots[k].target_id]++;
+        }
+    }
+    assert_share(seen[0], 4000, 0.45);
+    assert_share(seen[1], 4000, 0.25); /* in both: the lower one */
+    assert_share(seen[2], 4000, 0.95);
+    assert_share(seen[3], 4000, 0.7); /* a body's scatterers, too */
+    free_observation(run, scene);
+}
+
 static void a_target_may_give_split_plots(void **state)
 {
     (void)state;
@@ -398,6 +428,7 @@ int main(void)
         cmocka_unit_test(pd_falls_with_range),
         cmocka_unit_test(outages_and_masks_suppress_plots),
         cmocka_unit_test(random_fades_suppress_their_share_of_plots),
+        cmocka_unit_test(fades_count_in_their_part_of_the_coverage),
         cmocka_unit_test(a_target_may_give_split_plots),
         cmocka_unit_test(unresolved_targets_give_one_plot),
         cmocka_unit_test(passive_sensors_measure_bearings),

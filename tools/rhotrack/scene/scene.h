@@ -136,7 +136,7 @@ struct scene_event {
     uint32_t sensors;
     double from_s, until_s;
     bool is_silent;               /* outage: no scans are sent; false: empty ones */
-    struct scene_coverage within; /* mask: area that is hidden */
+    struct scene_coverage within; /* mask: area that is hidden; fades: where they count */
     /* fades: mean number an hour and target; 0: one fade from from_s until until_s */
     double per_hour;
     struct json_span for_s;

@@ -135,8 +135,8 @@ struct sighting {
 };
 
 struct fade {
-    double from_s, until_s, pd;
-    uint32_t sensors;
+    double from_s, until_s;
+    const struct scene_event *event;
 };
 
 struct target_fades {
@@ -316,7 +316,7 @@ static struct target_fades draw_fades_of_target(const struct scene *scene,
         }
         count = event->per_hour > 0.0 ? count : 1;
         for (uint64_t k = 0; k < count; k++) {
-            struct fade fade = {event->from_s, event->until_s, event->pd, event->sensors};
+            struct fade fade = {event->from_s, event->until_s, event};
 
             if (event->per_hour > 0.0) {
                 fade.from_s = random_between(&random, from_s, until_s);
@@ -330,13 +330,17 @@ static struct target_fades draw_fades_of_target(const struct scene *scene,
     return fades;
 }
 
-static double faded_pd(const struct target_fades *fades, size_t sensor, double t_s, double pd)
+/* The P_D of a sighting by a sensor: pd, or less in a fade that counts at its place. */
+static double faded_pd(const struct target_fades *fades, size_t sensor, const struct sighting *on,
+                       double pd)
 {
     for (size_t i = 0; i < fades->count; i++) {
         const struct fade *fade = &fades->fades[i];
+        const struct scene_event *event = fade->event;
 
-        if ((fade->sensors >> sensor & 1) && t_s >= fade->from_s && t_s < fade->until_s) {
-            pd = fmin(pd, fade->pd);
+        if ((event->sensors >> sensor & 1) && on->t_s >= fade->from_s && on->t_s < fade->until_s &&
+            is_in_coverage(&event->within, on->range_m, on->azimuth_rad)) {
+            pd = fmin(pd, event->pd);
         }
     }
     return pd;
@@ -570,7 +574,7 @@ static void add_body_plots(struct observer *observer, const struct scene_body *b
     for (size_t i = 0; i < body->scatterers; i++) {
         const struct sighting on = sighting_of_body_point(sensor, centre, path, places_m[i]);
         const double pd = faded_pd(
-            fades, observer->index, on.t_s,
+            fades, observer->index, &on,
             scene_notch_pd(&sensor->notch, range_rate_of(sensor, &on.at, on.range_m), body->seen));
 
         if (random_uniform(&look) < pd &&
@@ -625,8 +629,8 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
                                    range_rate_of(observer->sensor, &one->at, one->range_m),
                                    pd_at_range(&observer->sensor->pd, one->range_m));
 
-        one->is_seen = random_uniform(&random) <
-                       faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);
+        one->is_seen =
+            random_uniform(&random) < faded_pd(&fades[one->target_id], observer->index, one, pd);
     }
     number_unresolved_groups(observer);
     for (size_t i = 0; i < observer->num_sightings; i++) {

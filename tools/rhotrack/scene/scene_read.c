@@ -449,6 +449,7 @@ static void read_fades_event(struct json_object *object, struct scene_event *eve
 {
     struct json_list list = json_read_list(object, "targets", 32);
 
+    event->within = read_coverage(object, anywhere);
     event->pd = json_read_number(object, "pd", 0, 1, 0);
     event->per_hour = json_read_number(object, "per_hour", 0, 3600, 0);
     event->for_s = json_read_span(object, "for_s", 1e-3, 1e6, (struct json_span){0});
