@@ -394,6 +394,25 @@ static void passive_sensors_measure_bearings(void **state)
     free_observation(run, scene);
 }
 
+static void false_bearings_may_come_in_bursts(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = observe_scene_text(
+        "{\"version\": 1, \"duration_s\": 8000, \"passive\": [{\"interval_s\": 4, \"sigma_rad\": "
+        "0.002, \"false_bearings\": 2, \"is_geometric\": true}], \"targets\": []}",
+        &scene, 1);
+    size_t without = 0;
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        without += run->scans[i].num_plots == 0;
+    }
+    /* a geometric number of mean 2: none in a third of 2000 scans, variance 6 */
+    assert_share(without, 2000, 1.0 / 3.0);
+    assert_near((double)count_all_plots(run), 4000, 4 * sqrt(6 * 2000));
+    free_observation(run, scene);
+}
+
 static void scans_come_in_the_order_of_their_reception(void **state)
 {
     (void)state;
@@ -432,6 +451,7 @@ int main(void)
         cmocka_unit_test(a_target_may_give_split_plots),
         cmocka_unit_test(unresolved_targets_give_one_plot),
         cmocka_unit_test(passive_sensors_measure_bearings),
+        cmocka_unit_test(false_bearings_may_come_in_bursts),
         cmocka_unit_test(scans_come_in_the_order_of_their_reception),
     };
 

@@ -79,6 +79,7 @@ struct scene_sensor {
     /* share of scans that arrive late, and their delay */
     double late_share, late_s;
     double false_bearings;               /* of a passive sensor: mean number a scan */
+    bool is_geometric;                   /* their distribution; false: Poisson */
     double false_from_rad, false_to_rad; /* sector in which false bearings lie */
     struct scene_stated told;
 };

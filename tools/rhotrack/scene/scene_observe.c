@@ -897,6 +897,17 @@ static void observe_scan_clutter(struct observer *observer, size_t source)
     }
 }
 
+/* A number of a geometric distribution. */
+static uint64_t draw_geometric(struct random *random, double mean)
+{
+    uint64_t count = 0;
+
+    while (random_uniform(random) < mean / (1.0 + mean)) {
+        count++;
+    }
+    return count;
+}
+
 static void observe_false_bearings(struct observer *observer)
 {
     const struct scene_sensor *sensor = observer->sensor;
@@ -904,7 +915,8 @@ static void observe_false_bearings(struct observer *observer)
     for (size_t turn = 0; turn < observer->turns; turn++) {
         struct random random = scene_random_stream(observer->seed, observer->run, STREAM_BEARINGS,
                                                    observer->index, turn, 0);
-        uint64_t count = random_poisson(&random, sensor->false_bearings);
+        uint64_t count = sensor->is_geometric ? draw_geometric(&random, sensor->false_bearings)
+                                              : random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
             store_clutter_plot(
