@@ -90,8 +90,8 @@ printf 't_s,track_id,x_m,y_m\n' >"$folder/none.csv"
 check "no track at all is a result" sh -c \
     "'$RHOTRACK' evaluate '$folder/truth.csv' '$folder/none.csv' --json |
     grep -q '\"completeness\":.*0'"
-printf 't_s,track_id,x_m,y_m\n10.002,1,0,0\n' >"$folder/odd.csv"
-expect_exit 2 "a time that the truth does not have" "$RHOTRACK" evaluate "$folder/truth.csv" \
+printf 't_s,track_id,x_m,y_m\n99,1,0,0\n' >"$folder/odd.csv"
+expect_exit 2 "no time within the truth's" "$RHOTRACK" evaluate "$folder/truth.csv" \
     "$folder/odd.csv"
 check "and it names file and line" sh -c \
     "'$RHOTRACK' evaluate '$folder/truth.csv' '$folder/odd.csv' 2>&1 | grep -q 'odd.csv:2: '"

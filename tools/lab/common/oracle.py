@@ -22,6 +22,8 @@ CANDIDATES = [(0.003,), (0.03,), (0.1,), (0.3,), (1.0,), (3.0,), (10.0,),
 
 def measurement_noise(plots, sensors):
     """Covariances of the plots' places, (plots, 2, 2)."""
+    if plots.sigma_m is not None:
+        return plots.sigma_m[:, None, None] ** 2 * np.eye(2)
     cosine, sine = np.cos(plots.azimuth_rad), np.sin(plots.azimuth_rad)
     turn = np.stack([np.stack([cosine, -sine], -1), np.stack([sine, cosine], -1)], -2)
     sigma = np.array(
@@ -155,16 +157,18 @@ def as_rows(mean, covariance, coasts):
         [mean, np.stack([*lower, np.broadcast_to(coasts, mean.shape[:-1])], axis=-1)], axis=-1)
 
 
-def follow(plots, truth, sensors, candidates, v_max_mps):
+def follow(plots, truth, sensors, candidates, v_max_mps, live_throughout=False):
     """Rows of tracks: times in microseconds, track numbers, targets, places for each candidate
-    (candidates, rows, 2), and what else is known of tracks (candidates, rows, len(MORE))."""
+    (candidates, rows, 2), and what else is known of tracks (candidates, rows, len(MORE)). Targets
+    that live throughout are told as such: three hits in any looks start a track, and it stays."""
     groups = [[c for c in candidates if len(c) == 1], [c for c in candidates if len(c) > 1]]
     filters = [Filters(group, len(truth.ids), v_max_mps / 2) for group in groups if group]
     places_in = [candidates.index(c) for group in groups for c in group]
     noise = measurement_noise(plots, sensors)
     own = own_plots(plots, truth)
     n = len(truth.ids)
-    looks = np.zeros((n, LOOKS), dtype=bool)
+    looks = np.zeros((n, len(plots.scan_times_us) if live_throughout else LOOKS), dtype=bool)
+    drop_misses = np.inf if live_throughout else DROP_MISSES
     misses = np.zeros(n, dtype=int)
     track = np.full(n, -1)
     next_track = 0
@@ -189,7 +193,7 @@ def follow(plots, truth, sensors, candidates, v_max_mps):
             if (~known).any():
                 bank.start(hit[~known], plots.place_m[rows[~known]], noise[rows[~known]],
                            time_s[~known])
-        over = np.where(track >= 0, misses >= DROP_MISSES,
+        over = np.where(track >= 0, misses >= drop_misses,
                         ~looks.any(axis=1)) & filters[0].has_state
         track[over] = -1
         looks[over] = False

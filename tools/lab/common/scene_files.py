@@ -71,17 +71,18 @@ class Settings:
             int(section.split()[1]) for section in self.parser.sections()
             if section.startswith("sensor ")
         ]
-        return {
-            number: Sensor(x_m=self.get("x_m", 0.0, number), y_m=self.get("y_m", 0.0, number),
-                           range_min_m=self.get("range_min_m", 0.0, number), range_max_m=self.get(
-                               "range_max_m", RANGE_MAX_M, number), sector_from_rad=self.get(
-                                   "sector_from_rad", 0.0, number), sector_to_rad=self.get(
-                                       "sector_to_rad", 0.0, number), sigma_range_m=self.get(
-                                           "sigma_range_m", 15.0,
-                                           number), sigma_azimuth_rad=self.get(
-                                               "sigma_azimuth_rad", 0.003, number))
-            for number in numbers or [None]
-        }
+        return {number: self.sensor(number) for number in numbers or [None]}
+
+    def sensor(self, number=None):
+        """As the values without a section describe it, or its own before these."""
+        return Sensor(
+            x_m=self.get("x_m", 0.0, number), y_m=self.get("y_m", 0.0, number),
+            range_min_m=self.get("range_min_m", 0.0, number),
+            range_max_m=self.get("range_max_m", RANGE_MAX_M, number),
+            sector_from_rad=self.get("sector_from_rad", 0.0, number),
+            sector_to_rad=self.get("sector_to_rad", 0.0, number),
+            sigma_range_m=self.get("sigma_range_m", 15.0, number),
+            sigma_azimuth_rad=self.get("sigma_azimuth_rad", 0.003, number))
 
 
 def sensor_of(sensors, sensor_id):
@@ -227,7 +228,7 @@ def first_confirmed(path):
 
 @dataclasses.dataclass
 class Plots:
-    """Polar plots and the scans that they belong to; of a scan that saw nothing there are none."""
+    """Plots and the scans that they belong to; of a scan that saw nothing there are none."""
     times_us: np.ndarray
     scan: np.ndarray  # into scan_times_us
     target: np.ndarray  # truth's id; -1: clutter
@@ -237,43 +238,54 @@ class Plots:
     place_m: np.ndarray  # (plots, 2)
     scan_times_us: np.ndarray
     scan_sensor: np.ndarray
+    sigma_m: np.ndarray = None  # of Cartesian plots, on each axis
 
 
 def read_plots(path, sensors, scan_interval_s=0.0):
     """Rows of a sensor are one scan by the column `scan`, or within scan_interval_s of the first,
     as `track` reads them; its time is that of the row that saw nothing, or else of the first
     one."""
-    table = columns(path, ("t_s", "sensor_id", "range_m", "azimuth_rad"), ("scan", "target_id"))
+    table = columns(path, ("t_s", "sensor_id"), ("scan", "target_id", "range_m", "azimuth_rad",
+                                                 "x_m", "y_m", "sigma_m"))
+    axes = ("range_m", "azimuth_rad") if table["range_m"] else ("x_m", "y_m")
+    if table[axes[0]] is None or table[axes[1]] is None:
+        raise ValueError(f"{path}: no places of plots")
     times_us = microseconds(table["t_s"])
     interval_us = max(1, round(scan_interval_s * 1e6) - 1)
     scan_of_row = np.empty(len(times_us), dtype=np.int64)
     scan_times, scan_sensor, open_scan = [], [], {}
-    for row, (time_us, sensor_id, range_m) in enumerate(
-            zip(times_us.tolist(), table["sensor_id"], table["range_m"])):
+    for row, (time_us, sensor_id, first) in enumerate(
+            zip(times_us.tolist(), table["sensor_id"], table[axes[0]])):
         sensor_id = int(sensor_id)
         number = table["scan"][row] if table["scan"] else None
         last = open_scan.get(sensor_id)
         same = last is not None and (number == last[1] if number else time_us -
-                                     last[2] < interval_us and not (last[3] and range_m == ""))
+                                     last[2] < interval_us and not (last[3] and first == ""))
         if not same:
             last = open_scan[sensor_id] = [len(scan_times), number, time_us, False]
             scan_times.append(time_us)
             scan_sensor.append(sensor_id)
-        if range_m == "":
+        if first == "":
             scan_times[last[0]] = time_us
             last[3] = True
         scan_of_row[row] = last[0]
-    rows = np.array([cell != "" for cell in table["range_m"]], dtype=bool)
+    rows = np.array([cell != "" for cell in table[axes[0]]], dtype=bool)
 
     def numbers(name, kind=float):
         return np.array([cell for cell, counts in zip(table[name], rows) if counts], dtype=kind)
 
-    range_m, azimuth = numbers("range_m"), numbers("azimuth_rad")
+    first, second = numbers(axes[0]), numbers(axes[1])
     sensor = numbers("sensor_id", np.int64)
-    origin = np.array([[sensor_of(sensors, number).x_m,
-                        sensor_of(sensors, number).y_m] for number in sensor.tolist()])
-    place = origin.reshape(-1, 2) + np.column_stack(
-        [range_m * np.cos(azimuth), range_m * np.sin(azimuth)])
-    target = numbers("target_id", np.int64) if table["target_id"] else np.full(len(range_m), -1)
+    origin = np.array([[sensor_of(sensors, number).x_m, sensor_of(sensors, number).y_m]
+                       for number in sensor.tolist()]).reshape(-1, 2)
+    if table["range_m"]:
+        place = origin + np.column_stack([first * np.cos(second), first * np.sin(second)])
+        range_m, azimuth, sigma_m = first, second, None
+    else:
+        place, sigma_m = np.column_stack([first, second]), numbers("sigma_m")
+        range_m = np.hypot(*(place - origin).T)
+        azimuth = np.arctan2(*(place - origin).T[::-1])
+    target = numbers("target_id", np.int64) if table["target_id"] else np.full(len(first), -1)
     return Plots(times_us[rows], scan_of_row[rows], target, sensor, range_m, azimuth, place,
-                 np.array(scan_times, dtype=np.int64), np.array(scan_sensor, dtype=np.int64))
+                 np.array(scan_times, dtype=np.int64), np.array(scan_sensor, dtype=np.int64),
+                 sigma_m)
