@@ -114,7 +114,10 @@ static struct truth_paths truth_paths_of(const struct timed_points *truth, int64
             .rows = &sorted.list[begin],
             .count = end - begin,
             .interval_us = interval_us,
-            .gap_us = gap_us > 0 ? gap_us : TRUTH_GAP_INTERVALS * interval_us,
+            .gap_us = gap_us > 0 ? gap_us
+                      : interval_us < INT64_MAX / TRUTH_GAP_INTERVALS
+                          ? TRUTH_GAP_INTERVALS * interval_us
+                          : INT64_MAX,
         };
     }
     return paths;
@@ -372,8 +375,10 @@ static void fill_times(struct time_list *times, int64_t from_us, int64_t to_us, 
     int64_t least_us = (to_us - from_us) / FILLED_TIMES_MAX + 1;
     int64_t step_us = interval_us > least_us ? interval_us : least_us;
 
-    for (int64_t at_us = from_us + step_us; interval_us > 0 && at_us + step_us / 2 < to_us;
-         at_us += step_us) {
+    if (interval_us <= 0 || step_us >= to_us - from_us) {
+        return;
+    }
+    for (int64_t at_us = from_us + step_us; at_us + step_us / 2 < to_us; at_us += step_us) {
         add_time(times, at_us);
     }
 }
@@ -405,10 +410,11 @@ static struct time_list times_of_scans(const struct timed_points *truth,
     const int64_t interval_us =
         lives.interval_us > 0 ? lives.interval_us : interval_of_targets_us(paths);
 
-    if (before_us > 0 && interval_us > 0) {
+    if (interval_us > 0 && before_us >= interval_us) {
         /* counted back from the first time of the tracks */
-        fill_times(&times, first_us - (before_us / interval_us + 1) * interval_us, first_us,
-                   interval_us);
+        const int64_t from_us = first_us - before_us / interval_us * interval_us;
+        add_time(&times, from_us);
+        fill_times(&times, from_us, first_us, interval_us);
     }
     for (size_t i = 0; i < track_times.count; i++) {
         add_time(&times, track_times.us[i]);
