@@ -349,6 +349,19 @@ static void predict_cross_covariance(struct rho_imm *imm, int axis, int other,
     store_axis_pair(p, rows, &manoeuvre);
 }
 
+/*
+ * The steady model's noise density. Where range rates tell, agile targets may turn gently; few do
+ * as long as calm ones are as probable.
+ */
+static inline float steady_density(const struct rho_imm *imm, const struct rho_imm_step *step)
+{
+    const float agile2 = (1.0f - imm->calm) * (1.0f - imm->calm);
+    return imm->has_rates
+               ? step->calm_density +
+                     agile2 * agile2 * (TURN_NOISE * step->quiet_density - step->calm_density)
+               : step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);
+}
+
 /* The models are mixed before the prediction if their weights are given. */
 static enum rho_status predict_models(struct rho_imm *imm, const struct rho_imm_step *step,
                                       const struct mixing_weights *by)
@@ -365,13 +378,14 @@ static enum rho_status predict_models(struct rho_imm *imm, const struct rho_imm_
     }
     struct rho_kalman *kalman = &imm->steady;
     const float dt = step->dt_s, *noise = step->noise;
-    const float density =
-        step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);
+    const float density = steady_density(imm, step);
     const float quiet_noise[RHO_TRIANGLE(2)] = {density * step->quiet_noise[0],
                                                 density * step->quiet_noise[1],
                                                 density * step->quiet_noise[2]};
     float state_sum = 0.0f; /* finite if all states are */
     int is_good = 1;
+    const float unseen_ms = (float)imm->unseen_ms + 1e3f * step->quiet_noise[2];
+    imm->unseen_ms = unseen_ms < 65535.0f ? (uint16_t)unseen_ms : 65535;
     for (int axis = 0; axis < RHO_AXES; axis++) {
         if (!has_estimate_on_axis(imm, axis)) {
             /* NaN: neither open nor closed */

@@ -3,6 +3,8 @@
 #include <float.h>
 
 #include "imm_plane_update.h"
+#include "policy.h"
+#include "rhotrack/detail/approx.h"
 
 /* An axis with position and velocity exchanged, so that a velocity is measured as a position is. */
 static inline struct axis exchanged(struct axis at)
@@ -96,6 +98,35 @@ static enum rho_status update_position_along(struct rho_imm *imm, const float di
                : status;
 }
 
+/*
+ * Bayes update of the probability that a steady target is calm, by a range rate with innovation
+ * off_mps of the variance given, of which `noise` is the measurement's. Since the last plot a
+ * gentle turn has made the velocity uncertain by `turned` more than calm flight; the prediction had
+ * agile^4 of that (imm.c).
+ */
+static void update_calm(struct rho_imm *imm, const struct rho_imm_model *model, float off_mps,
+                        float variance, float noise)
+{
+    const float agile = 1.0f - imm->calm, agile2 = agile * agile;
+    imm->has_rates = model->calm_s > 0.0f; /* 0: there are no calm targets */
+    if (agile < 2.0f * AGILE_MIN && off_mps * off_mps < variance) {
+        return; /* as calm as it gets */
+    }
+    const float unseen_s = 1e-3f * (float)imm->unseen_ms;
+    const float turned = (TURN_NOISE * model->quiet_density - model->calm_density) * unseen_s;
+    const float calm = rho_larger(noise, variance - agile2 * agile2 * turned);
+    const float inverse = 1.0f / (calm * (calm + turned));
+    const float gain_nat = 0.5f * off_mps * off_mps * turned * inverse;
+    /* (1 + gain / 16)^16 for e^gain: less where a plot is far off, and a third of the time */
+    const float root =
+        1.0f + (1.0f / 16.0f) * (gain_nat < TURN_GAIN_MAX_NAT ? gain_nat : TURN_GAIN_MAX_NAT);
+    const float power_4 = root * root * (root * root), power_8 = power_4 * power_4;
+    const float odds = calm * rho_sqrt(inverse) * (power_8 * power_8);
+    const float news = unseen_s < TURN_LASTS_S ? unseen_s * (1.0f / TURN_LASTS_S) : 1.0f;
+    const float share = imm->calm / (imm->calm + agile * (1.0f - news + news * odds));
+    imm->calm = share < 1.0f - AGILE_MIN ? share : 1.0f - AGILE_MIN;
+}
+
 /* Updates both models by one element of the state. */
 static enum rho_status update_element(struct rho_imm *imm, int element, float value, float variance)
 {
@@ -106,8 +137,8 @@ static enum rho_status update_element(struct rho_imm *imm, int element, float va
                             : status;
 }
 
-static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
-                                           const struct rho_imm_plot *seen)
+static enum rho_status update_coupled_axes(struct rho_imm *imm, const struct rho_imm_model *model,
+                                           int num_axes, const struct rho_imm_plot *seen)
 {
     const struct rho_measurement *at = &seen->position;
     enum rho_status status = RHO_OK;
@@ -144,8 +175,16 @@ static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
             rho_kalman_floored(seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps);
         struct rho_kalman manoeuvre;
         struct rho_kalman_row rate;
+        float projected[RHO_KALMAN_STATES];
         load_kinematics(&manoeuvre, imm->state, imm->covariance);
-        status = rho_kalman_update_range_rate(&imm->steady, seen->sensor, rate_mps, variance);
+        if (rho_kalman_linearise_rate(&imm->steady, seen->sensor, rate_mps, variance, &rate) &&
+            rho_kalman_can_unfold(&imm->steady, seen->sensor, &rate)) {
+            update_calm(imm, model, rate.innovation,
+                        rho_linalg_project6(imm->steady.covariance, rate.row, projected) +
+                            rate.variance,
+                        rate.variance);
+            status = rho_kalman_update_row(&imm->steady, rate.row, rate.innovation, rate.variance);
+        }
         if (status == RHO_OK &&
             rho_kalman_linearise_rate(&manoeuvre, seen->sensor, rate_mps, variance, &rate) &&
             rho_kalman_can_unfold(&manoeuvre, seen->sensor, &rate)) {
@@ -178,9 +217,12 @@ static enum rho_status update_plane_place(struct rho_imm *imm, float x, float y,
 }
 
 /* Updates one model with a range rate, linearised at its estimate after the position update. */
-static enum rho_status update_plane_rate(int num_states, float *state, float *covariance,
-                                         const struct rho_imm_plot *seen)
+static enum rho_status update_plane_rate(struct rho_imm *imm, const struct rho_imm_model *model,
+                                         int num_states, const struct rho_imm_plot *seen)
 {
+    const int is_steady = num_states == RHO_PLANE_STEADY;
+    float *state = is_steady ? imm->steady.state : imm->state;
+    float *covariance = is_steady ? imm->steady.covariance : imm->covariance;
     const float sigma_mps = seen->plot->sigma_range_rate_mps;
     float spread[RHO_PLANE_MANOEUVRE];
     struct plane_rate rate;
@@ -197,12 +239,16 @@ static enum rho_status update_plane_rate(int num_states, float *state, float *co
         off_mps = rho_measurement_innovation_mps(seen->sensor, seen->plot->range_rate_mps,
                                                  rate.expected_mps);
     }
+    if (is_steady) {
+        update_calm(imm, model, off_mps, predicted + variance, variance);
+    }
     return rho_imm_plane_update(num_states, state, covariance, spread, predicted, off_mps,
                                 variance);
 }
 
 /* Updates both models without a height, by a plot's range along the ground. */
-static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm_plot *seen)
+static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm_model *model,
+                                       const struct rho_imm_plot *seen)
 {
     const struct rho_measurement *at = &seen->position;
     const float ca = at->cos_azimuth, sa = at->sin_azimuth;
@@ -211,10 +257,9 @@ static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm
         status = update_plane_place(imm, ca, sa, at->place_m, rho_measurement_ground_m2(at));
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
-        status =
-            update_plane_rate(RHO_PLANE_STEADY, imm->steady.state, imm->steady.covariance, seen);
+        status = update_plane_rate(imm, model, RHO_PLANE_STEADY, seen);
         if (status == RHO_OK) {
-            status = update_plane_rate(RHO_PLANE_MANOEUVRE, imm->state, imm->covariance, seen);
+            status = update_plane_rate(imm, model, RHO_PLANE_MANOEUVRE, seen);
         }
     }
     rho_imm_plane_floor_variances(RHO_PLANE_STEADY, imm->steady.covariance);
@@ -233,8 +278,8 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
         !has_estimate_on_axis(imm, RHO_Z) && !(seen->measures & RHO_MEASURES_VELOCITY);
     imm->is_coupled |= !is_simple;
     enum rho_status status = is_simple     ? update_independent_axes(imm, num_axes, seen)
-                             : is_in_plane ? update_in_plane(imm, seen)
-                                           : update_coupled_axes(imm, num_axes, seen);
+                             : is_in_plane ? update_in_plane(imm, model, seen)
+                                           : update_coupled_axes(imm, model, num_axes, seen);
     if (status == RHO_OK && opens) {
         const float noise = rho_kalman_floored(seen->covariance[RHO_ZZ]);
         const float speed_variance = model->speed_sigma_mps * model->speed_sigma_mps;
@@ -249,6 +294,7 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
         }
     }
     imm->probability = match->probability;
+    imm->unseen_ms = 0;
     return status;
 }
 

@@ -40,6 +40,26 @@
 #define QUIET_DENSITY 1.0f
 #define CALM_DENSITY 0.003f
 /*
+ * Steady model's noise in a gentle turn, of 0.17 accel_max, over that of agile targets, where range
+ * rates tell: imm_update.c. Half: gentle turns lag. Twice: they are noisy across the line of sight.
+ */
+#define TURN_NOISE 12.0f
+/*
+ * Time over which a gentle turn lasts: plots within say the same of it. Half: at 20 plots a second
+ * targets are soon taken for calm. Twice: a turn shows later there.
+ */
+#define TURN_LASTS_S 4.0f
+/*
+ * Least probability of agile targets after a range rate: rounding to 0 would exclude them for good.
+ * Half or twice: a gentle turn shows after 0.7 nat more or less of evidence.
+ */
+#define AGILE_MIN 1e-3f
+/*
+ * Most that one range rate tells for a gentle turn, nat, lest a product overflow. Half or twice: no
+ * plot in a gate tells as much.
+ */
+#define TURN_GAIN_MAX_NAT 50.0f
+/*
  * Mean time until an agile target that flies straight becomes calm. Half: a target is taken for
  * calm between two of its turns. Twice: straight targets keep an agile one's noise for minutes.
  */

@@ -12,10 +12,11 @@
  * Some targets keep straight for minutes, some for seconds, so the chain has three states: a steady
  * target is calm or agile, and both share the steady filter. An agile target that stays steady
  * becomes calm (settle_s). The mean time between manoeuvres of a calm target (calm_s) is longer
- * than that of an agile one (steady_s), and its steady model has less noise. Plots do not
- * distinguish calm from agile: `calm` changes with time and at the ends of manoeuvres only. A
- * manoeuvring model with negligible probability is not mixed into the steady one, whose estimate it
- * would degrade.
+ * than that of an agile one (steady_s), and its steady model has less noise. Places do not
+ * distinguish calm from agile: with them `calm` changes with time and at the ends of manoeuvres
+ * only. Range rates do: they show gentle turns, which agile targets then may make. A manoeuvring
+ * model with negligible probability is not mixed into the steady one, whose estimate it would
+ * degrade.
  *
  * As long as all noise is isotropic the axes are independent: three small filters per model. The
  * first plot with other noise couples the axes for good.
@@ -97,6 +98,8 @@ struct rho_imm {
     float probability; /* probability of the manoeuvring model */
     float calm;        /* probability that the target is calm if it is steady */
     uint8_t is_coupled;
+    uint8_t has_rates;  /* 1: range rates tell calm targets from gentle turns */
+    uint16_t unseen_ms; /* time since the last plot, 65535 at most */
 };
 
 /* A plot prepared for scoring and updates. Plot and sensor are referred to, not copied. */

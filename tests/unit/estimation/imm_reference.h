@@ -250,9 +250,16 @@ struct reference {
     struct wide_model models[2];
     double probability; /* of the manoeuvring model */
     double calm;        /* calm share of the steady targets */
-    int has_z;
+    double unseen_s;    /* since the last plot */
+    int has_z, has_rates;
     int is_apart; /* no covariances between axes */
 };
+
+/* Process noise of gentle turns over that of calm targets, of which (1 - calm)^4 is assumed. */
+static inline double reference_turn_density(const struct rho_imm_model *model)
+{
+    return 12.0 * model->quiet_density - model->calm_density;
+}
 
 static inline struct wide_step
 reference_step(const struct reference *r, const struct rho_imm_model *model, double dt, int which)
@@ -280,7 +287,10 @@ reference_step(const struct reference *r, const struct rho_imm_model *model, dou
             }
         } else if (dt > 0.0) {
             const double noise =
-                density * (r->calm * model->calm_density + (1.0 - r->calm) * model->quiet_density);
+                density *
+                (r->has_rates
+                     ? model->calm_density + pow(1.0 - r->calm, 4) * reference_turn_density(model)
+                     : r->calm * model->calm_density + (1.0 - r->calm) * model->quiet_density);
 
             step.q[axis][axis] = noise * dt * dt * dt / 3.0;
             step.q[axis][axis + 3] = step.q[axis + 3][axis] = noise * dt * dt / 2.0;
@@ -299,6 +309,7 @@ static inline void reference_predict_unmixed(struct reference *r, const struct r
 
         wide_predict(&r->models[which], &step);
     }
+    r->unseen_s = fmin(r->unseen_s + fmax(dt, 0.0), 65.535);
 }
 
 static inline struct wide_model reference_mixed_model(const struct wide_model models[2],
@@ -539,6 +550,33 @@ static inline void reference_add_range_rate(const struct reference *r, const str
     z->num++;
 }
 
+/*
+ * Bayes for calm targets against gentle turns, by a range rate's innovation under the steady model;
+ * e^v is (1 + v / 16)^16, v up to 50. Plots within four seconds say the same.
+ */
+static inline void reference_update_calm(struct reference *r, const struct rho_imm_model *model,
+                                         const struct wide_rows *rate)
+{
+    const double turned = reference_turn_density(model) * r->unseen_s;
+    const double agile = 1.0 - r->calm;
+    double variance = rate->r[0][0];
+
+    for (int i = 0; i < WIDE * WIDE; ++i) {
+        variance +=
+            rate->h[0][i / WIDE] * rate->h[0][i % WIDE] * r->models[STEADY].p[i / WIDE][i % WIDE];
+    }
+    if (!(agile < 2e-3 && pow(rate->y[0], 2) < variance)) {
+        const double calm = fmax(rate->r[0][0], variance - pow(agile, 4) * turned);
+        const double turns = calm + turned;
+        const double gain = fmin(50.0, 0.5 * pow(rate->y[0], 2) * (1.0 / calm - 1.0 / turns));
+        const double odds = sqrt(calm / turns) * pow(1.0 + gain / 16.0, 16.0);
+        const double news = fmin(1.0, r->unseen_s / 4.0);
+
+        r->calm = fmin(0.999, r->calm / (r->calm + agile * (1.0 - news + news * odds)));
+    }
+    r->has_rates = 1;
+}
+
 struct reference_match {
     double distance2[2], log_likelihood, probability;
     double nearest2; /* the smaller one of both models */
@@ -609,6 +647,9 @@ static inline void reference_update(struct reference *r, const struct rho_imm_mo
         wide_update(m, &z);
         if (seen->measures & RHO_MEASURES_RANGE_RATE) {
             reference_add_range_rate(r, m, seen, &rate);
+            if (which == STEADY && model->calm_s > 0.0f) {
+                reference_update_calm(r, model, &rate);
+            }
             wide_update(m, &rate);
         }
         if (opens) {
@@ -623,6 +664,7 @@ static inline void reference_update(struct reference *r, const struct rho_imm_mo
     }
     r->has_z = r->has_z || opens;
     r->probability = manoeuvre_probability;
+    r->unseen_s = 0.0;
 }
 
 /*
@@ -668,6 +710,8 @@ static inline struct reference reference_of(const struct rho_imm *imm)
 {
     struct reference r = {.probability = imm->probability,
                           .calm = imm->calm,
+                          .unseen_s = 1e-3 * imm->unseen_ms,
+                          .has_rates = imm->has_rates,
                           .has_z = imm->covariance[RHO_AT(2, 2)] > 0.0f,
                           .is_apart = !imm->is_coupled};
 

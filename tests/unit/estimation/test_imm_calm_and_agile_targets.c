@@ -384,11 +384,49 @@ static void a_smaller_acceleration_limit_tracks_straight_cars_better(void **stat
     }
 }
 
+/* The calm share after ten range rates 4 s apart of a target that accelerates along its course. */
+static float calm_share_after_range_rates(float accel_mps2, const struct rho_imm_model *model)
+{
+    struct rho_imm imm = started_filter(model);
+
+    imm.steady.state[0] = imm.state[0] = 20000.0f;
+    imm.steady.state[3] = imm.state[3] = 200.0f;
+    for (int k = 1; k <= 10; ++k) {
+        const float t_s = 4.0f * (float)k;
+        const struct rho_plot plot = {.x_m = 20000.0f + (200.0f + 0.5f * accel_mps2 * t_s) * t_s,
+                                      .sigma_range_m = 15.0f,
+                                      .sigma_cross_m = 60.0f,
+                                      .range_rate_mps = 200.0f + accel_mps2 * t_s,
+                                      .sigma_range_rate_mps = 1.0f};
+        struct rho_imm_plot seen;
+        struct rho_imm_match match;
+
+        predict_filter(&imm, model, 4.0f);
+        rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, NULL);
+        assert_true(rho_imm_score_plot(&imm, &seen, &match));
+        assert_int_equal(rho_imm_update(&imm, model, &seen, &match), RHO_OK);
+    }
+    return imm.calm;
+}
+
+/* Without range rates ten scans leave the share near a half: 1/settle_s is slow. */
+static void range_rates_tell_gentle_turns_from_calm_flight(void **state)
+{
+    struct rho_imm_model model = test_model();
+
+    (void)state;
+    assert_true(calm_share_after_range_rates(0.0f, &model) > 0.99f);
+    assert_true(calm_share_after_range_rates(2.0f, &model) < 0.3f);
+    model.calm_s = 0.0f;
+    assert_true(calm_share_after_range_rates(0.0f, &model) == 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_calm_share_grows_while_no_manoeuvre_happens),
         cmocka_unit_test(the_calm_share_falls_in_manoeuvres_and_recovers),
+        cmocka_unit_test(range_rates_tell_gentle_turns_from_calm_flight),
         cmocka_unit_test(only_predictions_with_mixing_change_the_calm_share),
         cmocka_unit_test(process_noise_is_the_mean_of_calm_and_agile_targets),
         cmocka_unit_test(an_unlikely_manoeuvre_is_not_mixed_into_the_steady_model),
