@@ -600,8 +600,8 @@
                         : 1080)
 #define RHO_RAM_SECOND_PLOTS_BYTES (76 * RHO_MAX_SENSORS)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
-    (RHO_MAX_TRACKS * (520 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
-     (172 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
+    (RHO_MAX_TRACKS * (560 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
+     (252 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
      RHO_RAM_STRIPS_BYTES + RHO_RAM_CLUTTER_MAP_BYTES + RHO_RAM_SECOND_PLOTS_BYTES +               \
      16 * (RHO_MAX_REFLECTORS + RHO_MAX_EXCLUDED_AREAS) + 78 * RHO_BODY_PLOTS +                    \
      168 * RHO_BODY_TRACKS + 640)

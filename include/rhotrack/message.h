@@ -688,12 +688,13 @@ const char *rho_message_setting_answer_field(const struct rho_message_place *pla
 #define RHO_MESSAGE_SETTING_COAST_SCANS_MAX 15
 #define RHO_MESSAGE_SETTING_FALSE_TRACKS_PER_HOUR 16
 #define RHO_MESSAGE_SETTING_WORK_MAX 17
+#define RHO_MESSAGE_SETTING_STANDING 18
 
 struct rho_message_setting {
     /* time at which the setting was sent, us; range -4000000000000000000 .. 4000000000000000000 */
     int64_t utime;
     int32_t number; /* the sender's number of the setting, which the answer repeats */
-    int16_t field; /* parameter that is to be set; range 1 .. 17 */
+    int16_t field; /* parameter that is to be set; range 1 .. 18 */
     float value; /* new value of the parameter */
 };
 RHO_MUST_CHECK enum rho_status rho_message_setting_encode(

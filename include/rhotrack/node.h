@@ -322,7 +322,7 @@ RHO_MUST_CHECK enum rho_status rho_node_reconfigure(struct rho_node *node,
  * sensors: a sensor follows a setting that its description equals (or a range that it does not
  * state). Settings that the node has change nothing.
  * Errors: NULL, STATE, CONFIG (rho_settings_check; or a sensor's least range would not be below its
- * largest); nothing is changed. Cost: windows and sensors. Stack: 900 bytes.
+ * largest); nothing is changed. Cost: windows and sensors. Stack: 920 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_node_set_settings(struct rho_node *node,
                                                      const struct rho_settings *settings);

@@ -105,7 +105,8 @@ struct rho_settings {
     uint16_t scans; /* [window] scans in the initiation window: 3 .. RHO_MAX_SCANS */
     /* [step] scans of the window in which a target needs a plot: 3 .. scans; 0: from the clutter */
     uint16_t min_scans;
-    uint16_t coast_scans_max; /* [step] misses in a row that end a track: 1 .. 255 */
+    uint16_t coast_scans_max; /* [step] scans for which a track may coast: 1 .. 255 */
+    uint16_t standing; /* [step] enum rho_tracker_standing: may tracks be of what never moved? */
     /* [step] tracks of clutter alone that are accepted: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
     /*
@@ -142,6 +143,7 @@ struct rho_settings_fault {
  *   range_max_m            470000   110000   44000   37000  10000     250
  *   false_tracks_per_hour       1        1       1       1    0.2      10
  *   coast_scans_max             5        5      10      10      8      20
+ *   standing              CLUTTER  CLUTTER TARGETS TARGETS TARGETS TARGETS
  *
  * Where a kind says nothing else: a target of pd 0.9 misses 5 looks in a row once in 1e5, so that 5
  * misses end a track; one false track an hour is what a person deletes by hand; range_min_m is what
@@ -222,8 +224,8 @@ RHO_MUST_CHECK enum rho_status rho_settings_check(const struct rho_settings *set
 /*
  * Puts the settings into the configs of tracker and initiators, which their
  * rho_..._config_default has filled; a config may be NULL. The settings are not checked.
- *   tracker    v_min, v_max, accel_max, pd, coast_scans_max, work_max; late_max_s becomes two scan
- *              intervals, at most 60 s
+ *   tracker    v_min, v_max, accel_max, pd, coast_scans_max, standing, work_max; late_max_s becomes
+ *              two scan intervals, at most 60 s
  *   initiator  v_min, v_max, pd, false_tracks_per_hour, scans, min_scans, work_max, area; turn_mps2
  *              becomes a fifth of accel_max_mps2: targets turn that hard for a whole window
  *   passive    v_max, pd, false_tracks_per_hour; range_max_m, at least 1 and at most 500 km;

@@ -27,13 +27,19 @@
  * The stated coverage of a sensor (rho_tracker_set_sensor) bounds its plots, its misses, and the
  * time that tracks live without either. A track that no sensor covers ends after the time of
  * coast_scans_max scans. A track that a sensor covers, but does not look at, ends after four times
- * as long. When a sensor looks there again after so long, and misses the track or sees it amid
- * clutter, the track is tentative until it is seen once more; it ends at the third miss in a row.
+ * as long.
  *
- * Where more confirmed tracks end early than false_tracks_per_hour allows, a new track stays
- * tentative until it is seen as often as targets are, or 16 times. A track also ends when the sigma
- * of its place exceeds its sensor's maximum range. Time is that of the scans: the tracks of a
- * silent sensor end at steps of other sensors, or at its own next step.
+ * A track that was confirmed has a probability that its target exists and is visible, or exists and
+ * is hidden. Each look of each sensor changes it by that sensor's own P_D and clutter, so that a
+ * sensor that sees little says little. Scans in which a sensor sees nothing of all its tracks are
+ * taken for the sensor's. A track is reported as confirmed or coasting while the target probably
+ * exists and clutter would not fill its place; it is tentative below, and ends where next to
+ * nothing is left. How often targets leave and are hidden is learned (rho_tracker_life).
+ *
+ * Where more tracks are found to be seldom seen than false_tracks_per_hour allows, a track stays
+ * tentative until it is seen as often as targets are. A track also ends when the sigma of its place
+ * exceeds its sensor's maximum range. Time is that of the scans: the tracks of a silent sensor end
+ * at steps of other sensors, or at its own next step.
  *
  * A scan that is stepped twice counts twice, unless it is its sensor's newest; rho_scan_assembler
  * removes such copies. With several radars each scan is a step, in the order of time, with the
@@ -81,6 +87,15 @@ enum rho_tracker_gate {
     RHO_NUM_TRACKER_GATES
 };
 
+/* Whether tracks may be of echoes that never moved, where v_min_mps is 0. */
+enum rho_tracker_standing {
+    /* they are clutter once they have come back a few times; what moved, and then stands, is not */
+    RHO_STANDING_CLUTTER = 0,
+    /* they are targets: ships at berth, hovering drones, queues; and masts that are not taught */
+    RHO_STANDING_TARGETS,
+    RHO_NUM_STANDING
+};
+
 struct rho_tracker_config {
     float pd; /* detection probability of sensors that are not described: 0.01 .. 0.999 */
     /*
@@ -113,13 +128,14 @@ struct rho_tracker_config {
      */
     float learn_noise_min, learn_noise_max, learn_pd_min;
     /*
-     * misses in a row that end a track, 1 .. 255; one of 16 hits only becomes tentative then, and
-     * ends after 2.4 times as many where little clutter is expected in its gate. Also the scans, of
-     * the sensors that saw it last, for whose time a track coasts that no sensor can see
+     * scans for which a track may coast, 1 .. 255: a hidden target appears again after 0.7 times
+     * as many on average; a track that no sensor can see ends after the time of so many scans of
+     * the sensors that saw it last
      */
     uint16_t coast_scans_max;
-    uint8_t gate;   /* enum rho_tracker_gate */
-    uint8_t planes; /* gate hough: RHO_GATE_PLANE_... of the Hough transforms */
+    uint8_t gate;     /* enum rho_tracker_gate */
+    uint8_t planes;   /* gate hough: RHO_GATE_PLANE_... of the Hough transforms */
+    uint8_t standing; /* enum rho_tracker_standing */
     /*
      * gates hough and nearest: input estimation; with is_estimated 0 a Kalman filter with white
      * acceleration of half accel_max for 1 s. Ignored where RHO_FILTERS has no input estimation
@@ -262,13 +278,20 @@ struct rho_tracker_pace {
  * too, as long as there is room: a described sensor takes the place of the undescribed one that was
  * heard longest ago, and so does a new undescribed one.
  */
+/* Parts of a turn for which a sensor's P_D is learned: octants from +x (east) on. */
+#define RHO_OCTANTS 8
+
 struct rho_tracker_sensor {
     /* as described, with learned noise and notch; of an undescribed one sensor_id alone */
     struct rho_sensor sensor;
     struct rho_tracker_learned learned; /* of a described sensor */
     struct rho_tracker_pace pace;
+    float blind; /* probability that its next look sees no target, as its last one saw none */
     struct rho_tracker_look look; /* count 0: it has sent no scan of plots */
     struct rho_second_plots second_plots;
+    float looks, hits; /* looks at confirmed tracks, and their probable hits */
+    /* by octant of azimuth: hits of plots, and those that were expected before octants */
+    float octant_hits[RHO_OCTANTS], octant_expected[RHO_OCTANTS];
 };
 
 /* Groups of a scan's plots, each of one target (body.h); valid within a step only. */
@@ -306,13 +329,14 @@ struct rho_tracker {
     uint16_t num_sensors;     /* described sensors: the first rows of `sensors` */
     uint16_t num_rows;   /* rows of `sensors` in use; further ones are of undescribed sensors */
     uint16_t num_tracks; /* live tracks, in the order of their identities */
-    uint16_t looks_max;  /* largest number of scans in a frame so far; 1 before any frame */
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
     struct rho_tracker_work work;
     struct rho_tracker_sensor sensors[RHO_MAX_SENSORS];
     /* counts that fade in half an hour: tracks that misses ended early; that reached 16 hits */
     float ended_early, established;
+    /* of established tracks: scans lived, ends, returns of hidden targets */
+    float lived, gone, returned;
     /* seconds of established tracks, fading, too: not surely manoeuvring; surely manoeuvring */
     float straight_s, turning_s;
     float wanted_per_hour; /* false_tracks_per_hour of the last initiator */
@@ -380,7 +404,7 @@ float rho_track_sigma_mps(const struct rho_track *track);
 
 /*
  * Fills the default configuration: pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s,
- * late_max 20 s, learn_noise_min 0.7, learn_noise_max 4, learn_pd_min 0.5, coast_scans_max 5, gate
+ * late_max 20 s, learn_noise_min 0.7, learn_noise_max 4, learn_pd_min 0.1, coast_scans_max 5, gate
  * best (nearest where RHO_FILTERS has no hypotheses); for the gates hough and nearest no input
  * estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
  */
@@ -405,8 +429,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_restart(struct rho_tracker *tracker);
 
 /*
  * Changes the configuration, from the next step on; tracks and all learned values are kept. Tracks
- * that the new configuration does not keep (slower than v_min, missed coast_scans_max times) end in
- * the next step.
+ * that the new configuration does not keep (slower than v_min) end in the next step.
  * Errors: NULL, STATE (not initialised; or there are tracks, and gate or input.is_estimated would
  * change their filter), CONFIG (as rho_tracker_init); nothing is changed. Constant cost. Stack:
  * 500 bytes.
@@ -449,6 +472,18 @@ struct rho_tracker_known {
     /* resolution cell in sigmas, learned where none was stated (RHO_SHARES_PLOTS); 0: not yet */
     float resolution_range_sigmas, resolution_cross_sigmas;
 };
+
+/*
+ * How often targets leave, are hidden and appear again: rates by scan interval of the slowest
+ * sensor that sees a track, learned from established tracks over half an hour.
+ */
+struct rho_tracker_life {
+    float death, hide, appear;
+    float lived_scans; /* scans from which they were learned */
+};
+
+/* Rates of targets' lives; 0 where the tracker is not initialised. Constant cost. */
+struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker);
 
 /*
  * Fills the learned values of a described sensor. Errors: NULL, STATE (not initialised, or the

@@ -88,6 +88,23 @@ void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s)
     }
 }
 
+/* A node off the pool's stack, for a hypothesis that starts from an estimate. */
+static uint16_t start_node(struct rho_hypotheses *pool, const struct rho_kalman *estimate,
+                           int64_t time_us, float weight_nat)
+{
+    const uint16_t node = rho_hypotheses_pop_node(pool);
+    struct rho_hypothesis *first = &pool->nodes[node];
+    memset(first, 0, sizeof *first);
+    rho_imm_start(&first->imm, &pool->model, estimate);
+    first->time_us = time_us;
+    first->weight_nat = weight_nat;
+    first->share = rho_exp(weight_nat);
+    for (int i = 0; i < RHO_HYPOTHESES_MEMORY; i++) {
+        first->picks[i] = RHO_HYPOTHESES_MISS;
+    }
+    return node;
+}
+
 enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rho_kalman *estimate,
                                     int64_t time_us, uint16_t *slot)
 {
@@ -98,19 +115,30 @@ enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rh
     if (found == RHO_HYPOTHESES_SLOTS || rho_hypotheses_make_room(pool, found, 1) < 1) {
         return RHO_ERROR_CAPACITY;
     }
-    uint16_t node = rho_hypotheses_pop_node(pool);
-    struct rho_hypothesis *first = &pool->nodes[node];
-    memset(first, 0, sizeof *first);
-    rho_imm_start(&first->imm, &pool->model, estimate);
-    first->time_us = time_us;
-    first->share = 1.0f;
-    for (int i = 0; i < RHO_HYPOTHESES_MEMORY; i++) {
-        first->picks[i] = RHO_HYPOTHESES_MISS;
-    }
-    pool->node_of[found][0] = node;
+    pool->node_of[found][0] = start_node(pool, estimate, time_us, 0.0f);
     pool->num_of[found] = 1;
     *slot = found;
     return RHO_OK;
+}
+
+void rho_hypotheses_add(struct rho_hypotheses *pool, uint16_t slot,
+                        const struct rho_kalman *estimate, int64_t time_us, float weight_nat)
+{
+    uint16_t *nodes = pool->node_of[slot];
+    unsigned place = pool->num_of[slot];
+    if (place == RHO_HYPOTHESES_OF_TRACK) {
+        rho_hypotheses_push_node(pool, nodes[--place]);
+    }
+    pool->num_of[slot] = (uint8_t)place;
+    if (rho_hypotheses_make_room(pool, slot, place + 1u) == place) {
+        return;
+    }
+    const uint16_t node = start_node(pool, estimate, time_us, weight_nat);
+    for (; place > 0 && pool->nodes[nodes[place - 1]].weight_nat < weight_nat; place--) {
+        nodes[place] = nodes[place - 1];
+    }
+    nodes[place] = node;
+    pool->num_of[slot]++;
 }
 
 void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)

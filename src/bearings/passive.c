@@ -62,8 +62,7 @@ enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size
     passive->magic = PASSIVE_MAGIC;
     /* all lines through the sensors' coverage must lie within the cells of rho */
     float reach_m = 0.5f * kept.rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - kept.range_max_m;
-    float apart_m =
-        2.0f * reach_m < 4.0f * RHO_LIMIT_POSITION_M ? 2.0f * reach_m : 4.0f * RHO_LIMIT_POSITION_M;
+    float apart_m = rho_smaller(2.0f * reach_m, 4.0f * RHO_LIMIT_POSITION_M);
     apart_m = apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
     return rho_batch_init(&passive->batch, kept.scans, apart_m);
 }

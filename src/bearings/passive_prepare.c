@@ -33,8 +33,7 @@ void rho_passive_prepare(struct rho_passive_search *search)
                 float sigma_rad = batch->bearings[k][s][i].sigma_rad;
                 float least_rad = sigma_rad / SIGMA_RATIO_MAX;
                 log_sigmas += rho_log(sigma_rad);
-                search->sigma_min_rad =
-                    least_rad > search->sigma_min_rad ? least_rad : search->sigma_min_rad;
+                search->sigma_min_rad = rho_larger(least_rad, search->sigma_min_rad);
             }
         }
     }

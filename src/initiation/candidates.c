@@ -10,7 +10,6 @@
 
 #include "clutter_density.h"
 #include "policy.h"
-#include "start_thresholds.h"
 #include "target_model.h"
 
 /* True where a score reaches the start threshold and, if a rate is kept, chi-square is small. */

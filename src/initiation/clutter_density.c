@@ -129,10 +129,7 @@ static struct polar_spread polar_spread_of_plots(const struct search *search,
         for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
              i++) {
             float dx_m = scan->plots[i].x_m - radar->x_m, dy_m = scan->plots[i].y_m - radar->y_m;
-            float range_m = distance_m(dx_m, dy_m);
-            if (!(range_m >= 1.0f)) {
-                range_m = 1.0f;
-            }
+            const float range_m = rho_larger(distance_m(dx_m, dy_m), 1.0f);
             spread.nearest_m =
                 spread.plots < 1.0f || range_m < spread.nearest_m ? range_m : spread.nearest_m;
             spread.farthest_m = rho_larger(range_m, spread.farthest_m);

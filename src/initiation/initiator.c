@@ -9,7 +9,6 @@
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "start_thresholds.h"
 #include "target_model.h"
 
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
@@ -62,7 +61,7 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     const struct rho_extent *area = config->area_is_fixed ? &config->area : 0;
     struct rho_initiator_config copy = *config;
     enum rho_status status =
-        rho_window_init(&initiator->window, sizeof initiator->window, copy.scans, area, 0.0f);
+        rho_window_init(&initiator->window, sizeof initiator->window, copy.scans, area);
     if (status != RHO_OK) {
         return status;
     }
@@ -92,7 +91,7 @@ enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
                                    !rho_is_equal(config->area.y_max_m, was->area.y_max_m)))) {
         const enum rho_status status =
             rho_window_init(&initiator->window, sizeof initiator->window, config->scans,
-                            config->area_is_fixed ? &config->area : 0, 0.0f);
+                            config->area_is_fixed ? &config->area : 0);
         if (status != RHO_OK) {
             return status;
         }

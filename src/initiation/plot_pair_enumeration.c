@@ -124,34 +124,23 @@ void rho_kernels_list_spans(struct search *search, unsigned b, struct span_list 
     list->has_span_hits = HAS_SPAN_HITS && need_spans_more_votes(search, list);
 }
 
-struct box {
-    float x0_m, x1_m, y0_m, y1_m;
-};
-
-static struct box square_about_plot(const struct rho_window_plot *plot, float gate_radius_m)
+static struct rho_extent square_about_plot(const struct rho_window_plot *plot, float gate_radius_m)
 {
-    return (struct box){plot->x_m - gate_radius_m, plot->x_m + gate_radius_m,
-                        plot->y_m - gate_radius_m, plot->y_m + gate_radius_m};
-}
-
-static int is_plot_in_box(const struct rho_window_plot *plot, const struct box *box)
-{
-    return plot->x_m >= box->x0_m && plot->x_m <= box->x1_m && plot->y_m >= box->y0_m &&
-           plot->y_m <= box->y1_m;
+    return (struct rho_extent){plot->x_m - gate_radius_m, plot->x_m + gate_radius_m,
+                               plot->y_m - gate_radius_m, plot->y_m + gate_radius_m};
 }
 
 static struct rho_window_bins charge_bins(struct search *search, const struct rho_window_scan *scan,
-                                          const struct box *box)
+                                          const struct rho_extent *box)
 {
-    struct rho_window_bins bins =
-        rho_window_bins_under(scan, box->x0_m, box->x1_m, box->y0_m, box->y1_m);
+    struct rho_window_bins bins = rho_window_bins_under(scan, box);
     rho_search_charge(search, (uint32_t)(bins.row_last - bins.row_first) + 1u);
     return bins;
 }
 
 /* Number of plots in the bins that a box touches. */
 static unsigned count_plots_under_box(struct search *search, const struct rho_window_scan *scan,
-                                      const struct box *box)
+                                      const struct rho_extent *box)
 {
     struct rho_window_bins bins = charge_bins(search, scan, box);
     unsigned count = 0;
@@ -191,7 +180,7 @@ static int try_pairs(struct search *search, const struct span *span, const struc
 {
     static const struct first_vote any = {.gap = 0};
     const struct rho_window_scan *scan = span->scan_a;
-    struct box box = square_about_plot(
+    struct rho_extent box = square_about_plot(
         ending->plot, target_travel_max_m(search, ending, span->b, span->a) + span->slack_m);
     struct rho_window_bins bins = charge_bins(search, scan, &box);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -242,32 +231,33 @@ struct third {
  * narrow box of plots of one time is that. Others are widened by the travel over the plot times and
  * clipped to far_m about the last plot, which no target exceeds; at least an edge is left.
  */
-static struct box extrapolate_box(const struct rho_window_scan *scan, const struct ending *ending,
-                                  const struct third *third, const struct extrapolation *to_scan,
-                                  float own_m)
+static struct rho_extent extrapolate_box(const struct rho_window_scan *scan,
+                                         const struct ending *ending, const struct third *third,
+                                         const struct extrapolation *to_scan, float own_m)
 {
     const struct rho_window_plot *to = ending->plot;
     const float ratio = to_scan->begin_s * third->per_s;
     const float gate_radius_m = ratio * to_scan->third_m + own_m;
     const float x_m = to->x_m + third->dx_m * ratio, y_m = to->y_m + third->dy_m * ratio;
-    struct box box = {x_m - gate_radius_m, x_m + gate_radius_m, y_m - gate_radius_m,
-                      y_m + gate_radius_m};
+    struct rho_extent box = {x_m - gate_radius_m, x_m + gate_radius_m, y_m - gate_radius_m,
+                             y_m + gate_radius_m};
     if (HAS_SPAN_HITS && ratio > 0.0f && gate_radius_m < NARROW_SHARE * to_scan->far_m &&
         scan->offset_min_s >= scan->offset_max_s) {
         return box;
     }
-    const struct box all = square_about_plot(ending->plot, to_scan->far_m);
+    const struct rho_extent all = square_about_plot(ending->plot, to_scan->far_m);
     if (!(third->per_s > 0.0f)) {
         return all;
     }
     const float spread = plot_time_spread_s(scan) * third->per_s;
     const float later_x_m = spread * third->dx_m, later_y_m = spread * third->dy_m;
-    struct box fitted = {.x0_m = rho_larger(box.x0_m - rho_larger(later_x_m, 0.0f), all.x0_m),
-                         .y0_m = rho_larger(box.y0_m - rho_larger(later_y_m, 0.0f), all.y0_m)};
-    fitted.x1_m =
-        rho_larger(fitted.x0_m, rho_smaller(box.x1_m - rho_smaller(later_x_m, 0.0f), all.x1_m));
-    fitted.y1_m =
-        rho_larger(fitted.y0_m, rho_smaller(box.y1_m - rho_smaller(later_y_m, 0.0f), all.y1_m));
+    struct rho_extent fitted = {
+        .x_min_m = rho_larger(box.x_min_m - rho_larger(later_x_m, 0.0f), all.x_min_m),
+        .y_min_m = rho_larger(box.y_min_m - rho_larger(later_y_m, 0.0f), all.y_min_m)};
+    fitted.x_max_m = rho_larger(
+        fitted.x_min_m, rho_smaller(box.x_max_m - rho_smaller(later_x_m, 0.0f), all.x_max_m));
+    fitted.y_max_m = rho_larger(
+        fitted.y_min_m, rho_smaller(box.y_max_m - rho_smaller(later_y_m, 0.0f), all.y_max_m));
     return fitted;
 }
 
@@ -280,16 +270,15 @@ static uint32_t try_first_plots(struct search *search, const struct span *span,
                                 const struct extrapolation *to_scan)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    const struct box box = extrapolate_box(scan, ending, third, to_scan, 0.0f);
+    const struct rho_extent box = extrapolate_box(scan, ending, third, to_scan, 0.0f);
     uint32_t passed = 0;
-    struct rho_window_bins bins =
-        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
+    struct rho_window_bins bins = rho_window_bins_under(scan, &box);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
         passed += end - i + 1u;
         for (; i < end; i++) {
-            if (is_plot_in_box(&scan->plots[i], &box)) {
+            if (rho_extent_holds(&box, scan->plots[i].x_m, scan->plots[i].y_m)) {
                 add_candidates_of_pair(search, span, ending, &third->first, i);
             }
         }
@@ -302,15 +291,14 @@ static int has_vote_before_third(const struct rho_window_scan *scan, const struc
                                  const struct third *third, const struct extrapolation *to_scan,
                                  float own_m, uint32_t *passed)
 {
-    const struct box box = extrapolate_box(scan, ending, third, to_scan, own_m);
-    const struct rho_window_bins bins =
-        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
+    const struct rho_extent box = extrapolate_box(scan, ending, third, to_scan, own_m);
+    const struct rho_window_bins bins = rho_window_bins_under(scan, &box);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
         *passed += end - i + 1u;
         for (; i < end; i++) {
-            if (is_plot_in_box(&scan->plots[i], &box)) {
+            if (rho_extent_holds(&box, scan->plots[i].x_m, scan->plots[i].y_m)) {
                 return 1;
             }
         }
@@ -354,7 +342,7 @@ static int try_third_plots(struct search *search, const struct span_list *list,
     }
     far_m = far_m + ending->rounding_m +
             GATE_ROUNDING * target_travel_max_m(search, ending, b, b - gap);
-    struct box box = square_about_plot(ending->plot, far_m);
+    struct rho_extent box = square_about_plot(ending->plot, far_m);
     struct rho_window_bins bins = charge_bins(search, scan, &box);
     const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
     /* spans that allow no further miss: their kernels need a vote of the next scan back, too */
@@ -435,7 +423,7 @@ static int are_third_plots_cheaper(struct search *search, const struct span *spa
     const struct rho_window_scan *before = rho_search_scan(search, span->b - 1u);
     float gate_radius_m = ending->gate_share * span->voters[0].gate_radius_m;
     float ratio = span->gap_s / (search->time_s[span->b] - search->time_s[span->b - 1u]);
-    struct box gate = square_about_plot(ending->plot, gate_radius_m), firsts;
+    struct rho_extent gate = square_about_plot(ending->plot, gate_radius_m), firsts;
     firsts = square_about_plot(
         ending->plot,
         rho_smaller(gate_radius_m * ratio, target_travel_max_m(search, ending, span->b, span->a)));
@@ -459,9 +447,8 @@ unsigned rho_kernels_count_near(struct search *search, const struct span_list *l
     const struct rho_window_scan *scan = rho_search_scan(search, widest->b - 1u);
     float far_m = target_travel_max_m(search, &ending, widest->b, widest->b - 1u) +
                   widest->voters[0].gate_radius_m;
-    struct box box = square_about_plot(ending.plot, far_m);
-    struct rho_window_bins bins =
-        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
+    struct rho_extent box = square_about_plot(ending.plot, far_m);
+    struct rho_window_bins bins = rho_window_bins_under(scan, &box);
     if (bins.row_last - bins.row_first < NEAR_ROWS) {
         return count_plots_under_box(search, scan, &box);
     }
@@ -498,7 +485,7 @@ int rho_kernels_try_ending(struct search *search, const struct span_list *list, 
                               rho_window_decode_sigma(plot->sigma_cross) <
                           initiator->thin_clutter;
     for (unsigned gap = 1; gap <= (unsigned)widest->b - widest->a; gap++) {
-        struct box box = square_about_plot(
+        struct rho_extent box = square_about_plot(
             plot, target_travel_max_m(search, &ending, widest->b, widest->b - gap));
         counts[gap] = counts[gap - 1u] +
                       count_plots_under_box(search, rho_search_scan(search, widest->b - gap), &box);

@@ -18,12 +18,9 @@ struct kernel {
     float duration_s;
     float gate_share;
     int misses_max;
-    float from_m2, to_m2; /* isotropic noise: the variances of first and last plot */
-    /* isotropic noise: look-up of a vote, with the values common to all scans */
-    struct rho_window_query query;
-    /* anisotropic noise: the covariances of first and last plot */
+    /* covariances of first and last plot; isotropic noise: xx_m2 alone, the variance */
     struct rho_window_plot_noise noise_a, noise_b;
-    /* anisotropic noise: look-up of a vote, with the values common to all scans */
+    /* look-up of a vote, with the values common to all scans */
     struct rho_window_place place;
 };
 
@@ -52,15 +49,12 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
     struct rho_window_place *place = &kernel->place;
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     if (rho_search_is_isotropic(search)) {
-        kernel->from_m2 = rho_square(rho_window_larger_sigma_m(kernel->from));
-        kernel->to_m2 = rho_square(rho_window_larger_sigma_m(kernel->to));
-        kernel->query = (struct rho_window_query){
-            .vx_mps = kernel->dx_m / kernel->duration_s,
-            .vy_mps = kernel->dy_m / kernel->duration_s,
-            .sigma_factor = 1.0f,
-            .gate_chi2 = RHO_GATE_CHI2_2D,
-            .skip_flags = search->skip_flags,
-        };
+        kernel->noise_a.xx_m2 = rho_square(rho_window_larger_sigma_m(kernel->from));
+        kernel->noise_b.xx_m2 = rho_square(rho_window_larger_sigma_m(kernel->to));
+        place->vx_mps = kernel->dx_m / kernel->duration_s;
+        place->vy_mps = kernel->dy_m / kernel->duration_s;
+        place->factor = 1.0f;
+        place->skip_flags = search->skip_flags;
         return 1;
     }
     rho_search_charge(search, search->has_more ? MORE_UNITS : OWN_NOISE_UNITS);
@@ -100,28 +94,20 @@ static int find_vote(struct search *search, const struct span *span, unsigned m,
     const float process_m2 = voter->process_m2;
     float after_s = search->time_s[m] - search->time_s[span->a];
     float al = (after_s - kernel->from->offset_s) / kernel->duration_s;
-    float x_m = kernel->from->x_m + al * kernel->dx_m;
-    float y_m = kernel->from->y_m + al * kernel->dy_m;
-    float gate_radius_m = kernel->gate_share * voter->gate_radius_m;
-    if (rho_search_is_isotropic(search)) {
-        struct rho_window_query *query = &kernel->query;
-        query->x_m = x_m;
-        query->y_m = y_m;
-        query->variance_m2 =
-            (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 + process_m2;
-        query->gate_radius_m = gate_radius_m;
-        return rho_window_nearest_isotropic(scan, query, work);
-    }
     const struct rho_window_plot_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
     struct rho_window_place *place = &kernel->place;
     float from = (1.0f - al) * (1.0f - al), to = al * al;
-    place->x_m = x_m;
-    place->y_m = y_m;
+    place->x_m = kernel->from->x_m + al * kernel->dx_m;
+    place->y_m = kernel->from->y_m + al * kernel->dy_m;
+    place->gate_radius_m = kernel->gate_share * voter->gate_radius_m;
+    if (rho_search_is_isotropic(search)) {
+        place->noise.xx_m2 = from * a->xx_m2 + to * b->xx_m2 + process_m2;
+        return rho_window_nearest_isotropic(scan, place, RHO_GATE_CHI2_2D, work);
+    }
     place->z_m = kernel->from->z_m + al * (kernel->to->z_m - kernel->from->z_m);
     place->noise = (struct rho_window_plot_noise){
         from * a->xx_m2 + to * b->xx_m2 + process_m2, from * a->xy_m2 + to * b->xy_m2,
         from * a->yy_m2 + to * b->yy_m2 + process_m2, from * a->zz_m2 + to * b->zz_m2 + process_m2};
-    place->gate_radius_m = gate_radius_m;
     return rho_window_nearest_plot(scan, place, work);
 }
 

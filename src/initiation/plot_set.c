@@ -38,20 +38,6 @@ static int nearest_to_fit(struct search *search, const struct line_fit *fit, flo
     const float t_s = search->time_s[m], bend_m2 = variance_factor * search->fit_process_m2;
     const float gate_radius_m = rho_sqrt(
         search->gate_chi2 * (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m));
-    if (rho_search_is_isotropic(search)) {
-        const struct rho_window_query query = {
-            .x_m = x_at(fit, t_s),
-            .y_m = y_at(fit, t_s),
-            .vx_mps = fit->vx_mps,
-            .vy_mps = fit->vy_mps,
-            .variance_m2 = bend_m2,
-            .sigma_factor = variance_factor,
-            .gate_chi2 = search->gate_chi2,
-            .gate_radius_m = gate_radius_m,
-            .skip_flags = search->skip_flags,
-        };
-        return rho_window_nearest_isotropic(scan, &query, work);
-    }
     const struct rho_window_place place = {
         .x_m = x_at(fit, t_s),
         .y_m = y_at(fit, t_s),
@@ -67,7 +53,9 @@ static int nearest_to_fit(struct search *search, const struct line_fit *fit, flo
         .gate_radius_m = gate_radius_m,
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest_plot(scan, &place, work);
+    return rho_search_is_isotropic(search)
+               ? rho_window_nearest_isotropic(scan, &place, search->gate_chi2, work)
+               : rho_window_nearest_plot(scan, &place, work);
 }
 
 void rho_plot_set_associate(struct search *search, const struct line_fit *fit,

@@ -3,7 +3,7 @@
  * recurring_clutter_map: the table of echoes, places that return clutter again and again: their
  * estimated places, the probabilities of their return, and which of them a full table drops.
  */
-#include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -143,6 +143,13 @@ void rho_search_charge(const struct search *search, uint32_t units);
 /* Records the work of a search, whether it was partial, and where the next search begins. */
 void rho_search_record_work(struct search *search);
 
+/* Sets M, and the scores that start and confirm a track (start_thresholds.c). */
+void rho_thresholds_set(struct search *search);
+/* Finds the thresholds anew, for the clutter density measured last. */
+void rho_thresholds_update(struct search *search);
+/* ln of the prior of a turn, at these thresholds. */
+float rho_thresholds_log_turn(const struct search *search);
+
 /* True where every field of a configuration is within its range (initiator.c). */
 int rho_initiator_is_usable_config(const struct rho_initiator_config *config);
 

@@ -7,7 +7,6 @@
  * Besides, tentative false tracks climb to the confirm threshold by further clutter plots. The
  * thresholds are those at which the sum of both equals the wanted rate.
  */
-#include "start_thresholds.h"
 
 #include <float.h>
 

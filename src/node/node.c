@@ -168,13 +168,6 @@ static int fetch_item(struct rho_node *node, int64_t now_us)
            rho_node_frames_close(node);
 }
 
-static void step_closed_frame(struct rho_node *node)
-{
-    struct rho_frame_view view;
-    (void)rho_frames_closed(NODE_FRAMES(node), &view);
-    (void)!rho_node_chain_frame(node, &view.frame); /* `done` says whether it was stepped */
-}
-
 static void do_due(struct rho_node *node, enum rho_node_due due)
 {
     if (due == RHO_NODE_RESTART) {
@@ -183,9 +176,11 @@ static void do_due(struct rho_node *node, enum rho_node_due due)
         rho_node_restart(node);
         node->done = RHO_NODE_RESTART;
     } else if (due == RHO_NODE_SCAN) {
-        (void)!rho_node_chain_scan(node, &node->scan, 1); /* likewise */
+        (void)!rho_node_chain_scan(node, &node->scan, 1); /* `done` says whether it was stepped */
     } else if (RHO_NODE_HAS_BEARINGS) {
-        step_closed_frame(node);
+        struct rho_frame_view view;
+        (void)rho_frames_closed(NODE_FRAMES(node), &view);
+        (void)!rho_node_chain_frame(node, &view.frame); /* likewise */
     }
 }
 

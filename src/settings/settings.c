@@ -63,7 +63,9 @@ enum rho_status rho_settings_check(const struct rho_settings *settings,
                                       IS_BELOW(area.y_min_m, -limit_m, settings->area.y_max_m))) &&
         IS_WITHIN(false_tracks_per_hour, 1e-6f, 1e6f) && IS_WITHIN(scans, 3, RHO_MAX_SCANS) &&
         (settings->min_scans == 0 || IS_WITHIN(min_scans, 3, settings->scans)) &&
-        IS_WITHIN(coast_scans_max, 1, UINT8_MAX) && IS_WITHIN(work_max, 0, RHO_LIMIT_WORK) &&
+        IS_WITHIN(coast_scans_max, 1, UINT8_MAX) &&
+        IS_WITHIN(standing, RHO_STANDING_CLUTTER, RHO_STANDING_TARGETS) &&
+        IS_WITHIN(work_max, 0, RHO_LIMIT_WORK) &&
         /* compared as an integer, too: the float may have been rounded down to the limit */
         settings->work_max <= RHO_LIMIT_WORK) {
         return RHO_OK;
@@ -83,6 +85,7 @@ void rho_settings_apply(const struct rho_settings *settings, struct rho_tracker_
         tracker->v_max_mps = settings->v_max_mps;
         tracker->accel_max_mps2 = settings->accel_max_mps2;
         tracker->coast_scans_max = settings->coast_scans_max;
+        tracker->standing = (uint8_t)settings->standing;
         tracker->work_max = settings->work_max;
         /* at most what a tracker accepts */
         tracker->late_max_s = rho_smaller(LATE_SCANS * settings->scan_interval_s, 60.0f);

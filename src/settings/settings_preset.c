@@ -43,4 +43,6 @@ void rho_settings_preset(struct rho_settings *settings, enum rho_preset preset)
                sizeof(float));
     }
     settings->coast_scans_max = coast_scans_max[preset];
+    /* ships at anchor, drones that hover and cars in a queue stand; aircraft do not */
+    settings->standing = settings->v_min_mps > 0.0f ? RHO_STANDING_CLUTTER : RHO_STANDING_TARGETS;
 }

@@ -7,19 +7,18 @@
  * Counts a miss of a track without a plot where the scan looked, and lowers the score; hypotheses
  * have taken the miss from their score already. Returns 1 where the track is missed.
  */
-static int count_miss_of_scan(const struct rho_look *look, struct rho_track *track, unsigned row)
+static void count_miss_of_scan(const struct rho_look *look, struct rho_track *track, unsigned row)
 {
     if (track->plot >= 0 || !rho_look_has_in_view(look, row) || !rho_look_may_miss(look, track)) {
-        return 0;
+        return;
     }
     if (rho_notch_is_mostly_blind(track) && track->was_confirmed) {
         rho_notch_coast(look, track);
-        return 0;
+        return;
     }
     rho_track_count_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                                     ? 0
                                     : rho_score_to_mnat(-rho_look_detection(look, track).log_miss));
-    return 1;
 }
 
 void rho_step_age(struct step *step)
@@ -29,19 +28,25 @@ void rho_step_age(struct step *step)
     if (look->scan) {
         rho_removal_of_duplicates(step);
     }
-    const struct rho_track_limits limits = rho_life_limits(look);
     rho_evidence_update(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || rho_track_is_frozen(track)) {
             continue;
         }
-        const int is_missed = step->frame ? track->plot < 0 && track->misses_in_row > 0
-                                          : count_miss_of_scan(look, track, row);
+        if (look->scan) {
+            count_miss_of_scan(look, track, row);
+        }
         if (RHO_SECTORS && look->scan) {
             rho_turn_note_seen(look, track);
         }
-        rho_removal_of_track(step, track, is_missed, &limits);
+    }
+    rho_life_weigh(tracker, look);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status != RHO_TRACK_FREE && !rho_track_is_frozen(track)) {
+            rho_removal_of_track(step, track);
+        }
     }
     rho_life_remove_ended(tracker);
     const int has_notch = look->scan && rho_notch_sensor_has_notch(look->sensor);

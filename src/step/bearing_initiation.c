@@ -78,8 +78,7 @@ static void push_frame(const struct rho_look *look, const struct rho_frame *fram
     rho_step_batch_to_report(look, &held, frame);
 }
 
-static void start_found_track(struct step *step, const struct rho_passive_track *found,
-                              const struct rho_track_limits *limits)
+static void start_found_track(struct step *step, const struct rho_passive_track *found)
 {
     static const uint8_t place[4] = {0, 1, 3, 4}; /* of x, y, vx and vy in a state of three axes */
     struct rho_tracker *tracker = step->tracker;
@@ -104,7 +103,7 @@ static void start_found_track(struct step *step, const struct rho_passive_track 
     if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->look.time_us,
                                  sensor_id, (uint16_t)rho_count_bits(found->scans),
                                  &step->look.model, found->score_mnat) == RHO_OK &&
-        rho_step_admit(step, &track, limits)) {
+        rho_step_admit(step, &track, step->passive->start_mnat)) {
         tracker->counters.plots_initiated =
             rho_count(tracker->counters.plots_initiated, rho_passive_consume(step->passive, found));
     }
@@ -142,15 +141,13 @@ void rho_step_initiate_bearings(struct step *step)
     (void)!rho_passive_search(passive);
     counters->candidates_dropped =
         rho_count(counters->candidates_dropped, passive->work.candidates_dropped);
-    struct rho_track_limits limits = rho_life_limits(look);
-    limits.confirm_mnat = passive->start_mnat;
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];
         /* without a bearing of the last two scans, a started track may claim the newer ones */
         const int is_recent = (unsigned)found->scans >> (passive->batch.num_scans - 2u) != 0;
         if (is_recent && found->score_mnat >= passive->start_mnat &&
             found->margin_mnat >= MARGIN_MIN_MNAT) {
-            start_found_track(step, found, &limits);
+            start_found_track(step, found);
         }
     }
 }

@@ -7,14 +7,9 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
-void rho_step_open_frame(struct rho_tracker *tracker, const struct rho_frame *frame,
-                         struct rho_look *look)
+void rho_step_open_frame(struct rho_look *look)
 {
-    const uint32_t looks = frame->num_scans < UINT16_MAX ? frame->num_scans : UINT16_MAX;
-    if (looks > tracker->looks_max) {
-        tracker->looks_max = (uint16_t)looks;
-    }
-    rho_look_set_pd(look); /* default pd: no sensor's look is open yet */
+    rho_pd_open(look, 0); /* default pd: no sensor's look is open yet */
     memset(look->fates, RHO_FATE_NO_ROOM, look->num_gated);
 }
 
@@ -72,7 +67,7 @@ static void open_look(struct rho_tracker *tracker, const struct rho_passive *pas
     look->log_false_bearings = rho_log((unclaimed > 1.0f ? unclaimed : 1.0f) / view_rad);
     look->num_gated = num_bearings_with_fates(look, scan, first);
     look->fates += first < RHO_MAX_PLOTS ? first : 0;
-    rho_look_set_pd(look);
+    rho_pd_open(look, row);
 }
 
 static void validate_bearings(struct rho_tracker *tracker, const struct rho_look *look)
@@ -91,74 +86,176 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
 
 /* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
 static int score_bearing(const struct rho_look *look, const struct rho_gate *gate,
-                         const struct rho_track *track, uint32_t i, float *gain_nat)
+                         const struct rho_track *track, uint32_t i, struct rho_gate_result *at,
+                         float *gain_nat)
 {
     const struct rho_bearing_scan *scan = look->bearings;
-    struct rho_gate_result result;
     struct rho_bearing bearing = scan->bearings[i];
     /* the update by an earlier look of the frame may have moved the track from the frame's time */
     bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
-    if (!rho_gate_test_bearing(gate, &bearing, scan->x_m, scan->y_m, &result)) {
+    if (look->fates[i] != RHO_FATE_HELD ||
+        !rho_gate_test_bearing(gate, &bearing, scan->x_m, scan->y_m, at)) {
         return 0;
     }
-    *gain_nat = look->log_pd - 0.5f * (RHO_LOG_TWO_PI + result.log_det + result.distance2) -
-                look->log_false_bearings;
+    *gain_nat = rho_look_detection(look, track).log_pd -
+                0.5f * (RHO_LOG_TWO_PI + at->log_det + at->distance2) - look->log_false_bearings;
     return 1;
 }
 
 static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *look, unsigned row)
 {
     const struct rho_track *track = &tracker->tracks[row];
+    const float log_miss = rho_look_detection(look, track).log_miss;
+    struct rho_gate_result at;
     struct rho_gate gate;
     float gain_nat;
     rho_score_open_gate(look, track, 0, &gate);
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] == RHO_FATE_HELD && score_bearing(look, &gate, track, i, &gain_nat)) {
-            rho_score_add_pair(tracker, row, i, gain_nat - look->log_miss);
+        if (score_bearing(look, &gate, track, i, &at, &gain_nat) && gain_nat > log_miss) {
+            rho_score_add_pair(tracker, row, i, gain_nat - log_miss);
         }
     }
 }
 
-/* The score of a track that this sensor covers and missed falls, whatever other sensors saw. */
-static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look)
+/* The bearings in a track's gate, weighed by their probabilities. */
+struct bearing_mix {
+    struct rho_track_bearing as_one; /* the one bearing that changes the estimate as they all do */
+    float hit;                       /* probability that one of them is the track's */
+    float gain_nat; /* ln of the likelihood of them all, or a miss, over that of clutter */
+    float share;    /* information of the mix, over that of a certain bearing */
+};
+
+/* Probability that a bearing is not the target's of the track that it was assigned. */
+static float free_share(const struct rho_assignment *assignment, unsigned row, uint32_t i)
+{
+    const int owner = assignment->column_row[i];
+    float own = 0.0f, sum = 1.0f;
+    if (owner < 0 || owner == (int)row) {
+        return 1.0f;
+    }
+    for (unsigned k = 0; k < assignment->num_pairs[owner]; k++) {
+        const struct rho_assignment_pair *pair = &assignment->pairs[owner][k];
+        const float weight = rho_exp(rho_smaller(-0.001f * (float)pair->cost, RHO_LOOK_LIMIT_NAT));
+        sum += weight;
+        own = pair->column == (int)i ? weight : own;
+    }
+    return 1.0f - own / sum;
+}
+
+/* Bearing from the scan's sensor to where the track is expected at that time. */
+static float expected_bearing_rad(const struct rho_bearing_scan *scan,
+                                  const struct rho_track *track, int64_t time_us)
+{
+    const float *state = track->kalman.state;
+    const float dt_s = rho_seconds_between(track->time_us, time_us);
+    return rho_atan2(state[1] + state[4] * dt_s - scan->y_m,
+                     state[0] + state[3] * dt_s - scan->x_m);
+}
+
+/*
+ * Mixes the bearings in a track's gate, as probabilistic data association does ("Bearings are
+ * weighed" in src/DESIGN.md, with these letters). A bearing of more than half of W is claimed.
+ */
+static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
+                                       const struct rho_look *look, unsigned row)
 {
     const struct rho_bearing_scan *scan = look->bearings;
-    float unclaimed = 0.0f, gain_nat = 0.0f;
+    const struct rho_track *track = &tracker->tracks[row];
+    struct bearing_mix mix = {.as_one = {.time_us = track->time_us,
+                                         .sensor_id = scan->sensor_id,
+                                         .x_m = scan->x_m,
+                                         .y_m = scan->y_m,
+                                         .row = -1}};
+    float sum = rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)
+                    ? rho_exp(rho_look_detection(look, track).log_miss)
+                    : 1.0f;
+    float hit = 0.0f, mean = 0.0f, square = 0.0f, noise = 0.0f, total = 0.0f, best = 0.0f;
+    struct rho_gate gate;
+    rho_score_open_gate(look, track, 0, &gate);
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        const struct rho_bearing *bearing = &scan->bearings[i];
+        struct rho_gate_result at;
+        float gain_nat;
+        if (!score_bearing(look, &gate, track, i, &at, &gain_nat)) {
+            continue;
+        }
+        const float weight = free_share(&tracker->assignment, row, i) *
+                             rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
+        const int64_t time_us = scan->time_us + bearing->offset_us;
+        const float off_rad =
+            rho_angle_wrap(bearing->bearing_rad - expected_bearing_rad(scan, track, time_us));
+        hit += weight;
+        mean += weight * off_rad;
+        square += weight * off_rad * off_rad;
+        noise += weight * bearing->sigma_rad * bearing->sigma_rad;
+        total += weight * rho_exp(at.log_det);
+        if (weight > best) {
+            best = weight;
+            mix.as_one.row = (int16_t)i;
+            mix.as_one.time_us = time_us;
+        }
+    }
+    sum += hit;
+    mix.hit = hit / sum;
+    mix.gain_nat = rho_log(sum);
+    mix.as_one.row = (int16_t)(best > 0.5f * sum ? mix.as_one.row : -1);
+    if (hit > 0.0f) {
+        const float variance = total / hit;
+        mean /= sum;
+        mix.share = hit / sum - (square / sum - mean * mean) / variance;
+        mix.as_one.bearing_rad = rho_angle_wrap(
+            expected_bearing_rad(scan, track, mix.as_one.time_us) + mean / mix.share);
+        mix.as_one.sigma_rad = rho_sqrt(variance / mix.share - (variance - noise / hit));
+    }
+    return mix;
+}
+
+/*
+ * Counts the bearings of confirmed tracks that the look covers, before it changes any: a sensor
+ * that sees less than it states must not take it out on the tracks.
+ */
+static void learn_pd(struct rho_tracker *tracker, struct rho_look *look)
+{
+    const struct rho_bearing_scan *scan = look->bearings;
+    const unsigned own = rho_sensors_row(tracker, scan->sensor_id);
+    struct rho_tracker_sensor *row = own < tracker->num_rows ? &tracker->sensors[own] : 0;
+    for (unsigned i = 0; row && i < tracker->num_tracks; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        if (track->was_confirmed && track->status != RHO_TRACK_FREE &&
+            rho_look_has_in_view(look, i) &&
+            rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
+            rho_pd_count(row, track->visible, mix_bearings(tracker, look, i).hit);
+        }
+    }
+    rho_pd_open(look, row);
+}
+
+/* A look that tells next to nothing of a track leaves its estimate alone; its score counts all. */
+static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look)
+{
+    float unclaimed = 0.0f;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        const int column = rho_assignment_column(&tracker->assignment, row);
         if (track->status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
             continue;
         }
-        if (column != RHO_ASSIGNMENT_NONE) {
-            const struct rho_bearing *bearing = &scan->bearings[column];
-            const struct rho_track_bearing seen = {
-                .time_us = scan->time_us + bearing->offset_us,
-                .sensor_id = scan->sensor_id,
-                .x_m = scan->x_m,
-                .y_m = scan->y_m,
-                .bearing_rad = bearing->bearing_rad,
-                .sigma_rad = bearing->sigma_rad,
-                .row = (int16_t)column,
-            };
-            struct rho_gate gate;
-            rho_score_open_gate(look, track, 0, &gate);
-            if (score_bearing(look, &gate, track, (uint32_t)column, &gain_nat) &&
-                rho_track_update_bearing(track, &seen, &look->model, rho_score_to_mnat(gain_nat)) ==
-                    RHO_OK) {
-                look->fates[column] = RHO_FATE_CLAIMED;
-                continue;
-            }
+        const struct bearing_mix mix = mix_bearings(tracker, look, row);
+        const int32_t gain_mnat = rho_score_to_mnat(mix.gain_nat);
+        unclaimed -= mix.hit;
+        if (!(mix.share > MIX_SHARE_MIN)) {
+            rho_track_lower_score(track, -gain_mnat);
+        } else if (rho_track_update_bearing(track, &mix.as_one, &look->model, gain_mnat) !=
+                   RHO_OK) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
-        }
-        if (rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
-            rho_track_lower_score(track, rho_score_to_mnat(-look->log_miss));
+        } else if (mix.as_one.row >= 0) {
+            look->fates[mix.as_one.row] = RHO_FATE_CLAIMED;
         }
     }
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        unclaimed += look->fates[i] == RHO_FATE_HELD ? 1.0f : 0.0f;
+        unclaimed += look->fates[i] != RHO_FATE_INVALID ? 1.0f : 0.0f;
     }
-    rho_clutter_smooth_mean(&tracker->unclaimed_bearings, unclaimed);
+    rho_clutter_smooth_mean(&tracker->unclaimed_bearings, rho_larger(unclaimed, 0.0f));
+    rho_life_weigh(tracker, look);
 }
 
 /* Claims and updates look by look: each sensor meets the gates that those before it left. */
@@ -170,6 +267,7 @@ void rho_step_take_frame(struct step *step)
     uint8_t *fates = look->fates;
     struct rho_sensor sensor;
     uint32_t first = 0;
+    rho_life_pass(tracker, look);
     for (uint32_t i = 0; i < step->frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[i];
         open_look(tracker, step->passive, look, scan, first, &sensor);
@@ -182,6 +280,7 @@ void rho_step_take_frame(struct step *step)
             }
         }
         rho_score_solve(tracker);
+        learn_pd(tracker, look);
         update_by_bearings(tracker, look);
         first = rho_count(first, scan->num_bearings);
         look->num_gated = num_gated;

@@ -56,7 +56,7 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
             step.look.num_inputs = rho_count(step.look.num_inputs, frame->scans[i].num_bearings);
         }
         if (rho_step_begin(&step)) {
-            rho_step_open_frame(tracker, frame, &step.look);
+            rho_step_open_frame(&step.look);
             rho_step_predict(&step);
             rho_step_take_frame(&step);
             rho_step_age(&step);

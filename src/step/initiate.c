@@ -47,7 +47,6 @@ static void start_from_candidates(struct step *step)
     const struct rho_look *look = &step->look;
     struct rho_tracker_counters *counters = &step->tracker->counters;
     struct rho_initiator *initiator = look->initiator;
-    const struct rho_track_limits limits = rho_life_limits(look);
     const unsigned newest = initiator->window.num_scans - 1u;
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, newest);
     struct rho_track_plot plots[RHO_MAX_SCANS];
@@ -72,7 +71,7 @@ static void start_from_candidates(struct step *step)
         if (RHO_SECTORS) {
             rho_turn_note_seen(look, &track);
         }
-        if (rho_step_admit(step, &track, &limits)) {
+        if (rho_step_admit(step, &track, step->tracker->confirm_mnat)) {
             counters->plots_initiated =
                 rho_count(counters->plots_initiated, rho_initiator_consume(initiator, candidate));
             if (RHO_MAX_ECHOES > 0) {

@@ -32,7 +32,7 @@ void rho_step_open_scan(struct rho_tracker *tracker, struct rho_look *look)
         look->sensor = &look->row->sensor;
         look->learned = &look->row->learned;
     }
-    rho_look_set_pd(look);
+    rho_pd_open(look, look->row);
     if (RHO_SECTORS) {
         rho_turn_note_look(tracker, look);
     }
@@ -98,6 +98,7 @@ void rho_step_take_scan(struct step *step)
     if (rho_notch_sensor_has_notch(look->sensor)) {
         rho_notch_mark_tracks(step->tracker, look);
     }
+    rho_life_pass(step->tracker, look);
     rho_targets_group_plots(step);
     if (RHO_CLAIMS_BEYOND && look->num_inputs > RHO_MAX_PLOTS) {
         take_parts(step);

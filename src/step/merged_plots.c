@@ -173,8 +173,8 @@ static int is_merged(const struct rho_look *look, const struct track_pair *pair,
         ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
     }
-    const float log_miss = rho_look_detection(look, pair->second).log_miss;
-    *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, STAY_MERGED_NAT));
+    const float log_miss = rho_look_visible(look, pair->second).log_miss;
+    *gain_nat = rho_larger(log_miss, ratio_nat);
     const float one = merged * rho_exp(ratio_nat), two = (1.0f - merged) * rho_exp(log_miss);
     learn_cell(look, pair, both_m2, one / (one + two));
     return one > two;

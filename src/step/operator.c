@@ -61,8 +61,12 @@ enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
                  .sigma_mps = start->sigma_mps},
         .row = -1,
     };
-    return rho_tracker_start_track(tracker, &seen, 1,
-                                   tracker->confirm_mnat > 0 ? tracker->confirm_mnat : 0, report);
+    const enum rho_status started = rho_tracker_start_track(
+        tracker, &seen, 1, tracker->confirm_mnat > 0 ? tracker->confirm_mnat : 0, report);
+    if (started == RHO_OK) {
+        tracker->tracks[tracker->num_tracks - 1].is_operators = 1;
+    }
+    return started;
 }
 
 enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t track_id,
@@ -175,7 +179,7 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
     track->plot = -1;
     track->accel_mps2[0] = track->accel_mps2[1] = track->accel_mps2[2] = 0.0f;
     /* the frozen time does not count as silence of the target */
-    track->seen_us = tracker->time_us;
+    track->seen_us = track->lived_us = tracker->time_us;
     track->misses_in_row = 0;
     rho_step_report_tracks(&step);
     return RHO_OK;

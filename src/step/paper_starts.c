@@ -46,7 +46,7 @@ enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t si
     starts->has_searched = starts->num_scans = 0;
     starts->config = kept;
     starts->magic = STARTS_MAGIC;
-    return rho_window_init(&starts->window, sizeof starts->window, kept.scans, 0, 0.0f);
+    return rho_window_init(&starts->window, sizeof starts->window, kept.scans, 0);
 }
 
 /* Number of the inputs of a step that have a place in the report's fates. */
@@ -101,18 +101,18 @@ static unsigned find_plots_of_line(struct rho_paper_starts *starts,
     for (unsigned m = 0; m < window->num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         const float t_s = rho_seconds_between(newest->time_us, scan->time_us);
-        const struct rho_window_query query = {
+        const struct rho_window_place place = {
             .x_m = line->x_m + t_s * line->vx_mps,
             .y_m = line->y_m + t_s * line->vy_mps,
             .vx_mps = line->vx_mps,
             .vy_mps = line->vy_mps,
-            .variance_m2 = cell_m * cell_m,
-            .sigma_factor = 1.0f,
-            .gate_chi2 = LINE_SIGMAS * LINE_SIGMAS,
+            .noise = {.xx_m2 = cell_m * cell_m},
+            .factor = 1.0f,
             .gate_radius_m = LINE_SIGMAS * (cell_m + scan->sigma_max_m),
             .skip_flags = RHO_WINDOW_INITIATED,
         };
-        const int nearest = rho_window_nearest_isotropic(scan, &query, &work);
+        const int nearest =
+            rho_window_nearest_isotropic(scan, &place, LINE_SIGMAS * LINE_SIGMAS, &work);
         if (nearest >= 0) {
             candidate->plot[m] = (uint16_t)nearest;
             candidate->mask = (uint16_t)(candidate->mask | 1u << m);

@@ -36,8 +36,7 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
 void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 
 /* bearing_looks.c: opens a frame of bearings, of which no sensor's look is open yet */
-void rho_step_open_frame(struct rho_tracker *tracker, const struct rho_frame *frame,
-                         struct rho_look *look);
+void rho_step_open_frame(struct rho_look *look);
 /* Claims and updates by each sensor's bearings, and counts the misses of the frame. */
 void rho_step_take_frame(struct step *step);
 
@@ -67,8 +66,7 @@ void rho_targets_split(struct step *step);
  * ages, its miss counted; plots, before starts; tracks of images, after starts.
  */
 void rho_removal_of_duplicates(struct step *step);
-void rho_removal_of_track(struct step *step, struct rho_track *track, int is_missed,
-                          const struct rho_track_limits *limits);
+void rho_removal_of_track(struct step *step, struct rho_track *track);
 void rho_removal_of_plots(struct rho_tracker *tracker, const struct rho_look *look,
                           struct rho_work *work);
 void rho_removal_of_images(struct step *step);
@@ -88,8 +86,7 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan);
  * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room, and the
  * track has ended. A full tracker ends its lowest tentative track for a track of a higher score.
  */
-int rho_step_admit(struct step *step, struct rho_track *track,
-                   const struct rho_track_limits *limits);
+int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat);
 /*
  * Makes *step from the newest step and its report, for changes of tracks between two steps. STATE:
  * the tracker has made no step, or the report is of another one.

@@ -20,6 +20,11 @@
 #define STEADY_SHARE 0.5f
 
 /* bearing_looks.c */
+/*
+ * Least information of a mix of bearings, over that of a certain one, that changes an estimate.
+ * Half: looks that tell nothing cost updates. Twice: faint bearings among many are not used.
+ */
+#define MIX_SHARE_MIN 0.1f
 
 /*
  * Sigmas by which noise may take a bearing out of its sensor's sector. Half: one bearing in forty
@@ -51,11 +56,6 @@
  * second tracks live on shared plots. Twice: pairs that meet soon after starts swap or end.
  */
 #define SHARING_HITS 10
-/*
- * ln of the probability that a pair stays merged for another scan. Half: a pair that never parts is
- * two tracks for some 100 scans. Twice: for some 25, and slow crossings lose a track.
- */
-#define STAY_MERGED_NAT (-0.1f)
 
 /* paper_starts.c */
 
@@ -95,5 +95,20 @@
 #define PARTED_SHARE 0.5f
 /* The same of range rates, in sigmas. Half: noise divides bodies. Twice: similar speeds are one. */
 #define PARTED_SIGMAS 5.0f
+
+/* update.c */
+
+/* Probability of a manoeuvre above which a target may stop. Half or twice: see STOP_NAT. */
+#define STOPS_ABOVE 0.5f
+/*
+ * Seconds of braking at accel_max in which a target that seems to stop at once may stop. Half: cars
+ * at 40 km/h that stop hard are lost. Twice: tracks of fast targets branch at each miss.
+ */
+#define STOP_S 2.0f
+/*
+ * ln of the probability that a target that is missed, or manoeuvres, has stopped so. Half: the mean
+ * of hypotheses moves at each miss. Twice: one stop in eight is found when a second track is there.
+ */
+#define STOP_NAT (-5.0f)
 
 #endif

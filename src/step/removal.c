@@ -16,14 +16,13 @@ void rho_removal_of_duplicates(struct step *step)
     }
 }
 
-void rho_removal_of_track(struct step *step, struct rho_track *track, int is_missed,
-                          const struct rho_track_limits *limits)
+void rho_removal_of_track(struct step *step, struct rho_track *track)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
-    const int is_unseen = rho_unseen_update(&step->look, track, is_missed, limits) ||
-                          rho_unseen_is_lost(step->tracker, track);
+    rho_life_apply(step, track, step->tracker->confirm_mnat);
+    const int is_unseen =
+        rho_unseen_update(&step->look, track) || rho_unseen_is_lost(step->tracker, track);
     const int is_fast = rho_speed_count_fast(&step->tracker->config, track);
-    rho_life_apply(step, track, limits);
     if (track->status != RHO_TRACK_FREE &&
         (is_unseen || is_fast || rho_speed_is_slow(&step->tracker->config, track))) {
         counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);

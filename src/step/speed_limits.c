@@ -14,7 +14,7 @@ static float speed2_of(const struct rho_track *track)
 int rho_speed_is_slow(const struct rho_tracker_config *config, const struct rho_track *track)
 {
     const float least_mps = config->v_min_mps - SLOW_SIGMAS * rho_track_sigma_mps(track);
-    return least_mps > 0.0f && speed2_of(track) < least_mps * least_mps;
+    return least_mps > 0.0f && !track->is_operators && speed2_of(track) < least_mps * least_mps;
 }
 
 int rho_speed_count_fast(const struct rho_tracker_config *config, struct rho_track *track)

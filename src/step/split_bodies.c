@@ -116,14 +116,13 @@ static int split_track(struct step *step, unsigned row, const struct body_side s
     track->kalman = stays.kalman;
     track->input = stays.input;
     if (start_from_side(&step->look, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
-        const struct rho_track_limits limits = rho_life_limits(&step->look);
         /* the new track is not established: it may still be an image in a wall (reflectors.h) */
         if (leaves.hits >= RHO_ESTABLISHED_HITS) {
             leaves.hits = RHO_ESTABLISHED_HITS - 1;
         }
         leaves.status = was.status;
         leaves.was_confirmed = was.was_confirmed;
-        (void)!rho_step_admit(step, &leaves, &limits);
+        (void)!rho_step_admit(step, &leaves, tracker->confirm_mnat);
     }
     return 1;
 }

@@ -49,8 +49,7 @@ static unsigned lowest_tentative(const struct rho_tracker *tracker, int32_t scor
     return lowest;
 }
 
-int rho_step_admit(struct step *step, struct rho_track *track,
-                   const struct rho_track_limits *limits)
+int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
     if (tracker->num_tracks == RHO_MAX_TRACKS) {
@@ -75,7 +74,8 @@ int rho_step_admit(struct step *step, struct rho_track *track,
         track->ahead_us = track->time_us;
     }
     track->seen_us = step->look.time_us;
-    rho_life_apply(step, track, limits);
+    rho_life_begin(track, step->look.time_us, confirm_mnat);
+    rho_life_apply(step, track, confirm_mnat);
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
     tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);
@@ -105,9 +105,8 @@ static enum rho_status resume_for_start(struct rho_tracker *tracker, struct rho_
     if (status != RHO_OK) {
         return status;
     }
-    rho_look_set_pd(&step->look);
-    return rho_tracker_is_score_in_range(score_mnat) &&
-                   score_mnat >= rho_life_limits(&step->look).tentative_mnat
+    rho_pd_open(&step->look, 0);
+    return rho_tracker_is_score_in_range(score_mnat) && score_mnat >= rho_life_least_mnat(tracker)
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
@@ -127,8 +126,7 @@ static enum rho_status check_room(const struct step *step, int32_t score_mnat)
 
 static enum rho_status admit_between_steps(struct step *step, struct rho_track *track)
 {
-    const struct rho_track_limits limits = rho_life_limits(&step->look);
-    if (!rho_step_admit(step, track, &limits)) {
+    if (!rho_step_admit(step, track, step->tracker->confirm_mnat)) {
         return RHO_ERROR_CAPACITY;
     }
     rho_step_merge_estimates(step);

@@ -1,6 +1,42 @@
 /* SPDX-License-Identifier: MIT */
 /* update: updates sensor health and learned noise by the assigned plots, and then the tracks. */
 #include "phases.h"
+#include "policy.h"
+#include "rhotrack/detail/approx.h"
+
+/*
+ * Where targets may stand, one that is missed or manoeuvres may have braked harder than accel_max:
+ * adds the hypothesis that it stands on its way of the last back_s.
+ */
+static void add_stop(struct rho_tracker *tracker, const struct rho_look *look,
+                     const struct rho_track *track, float back_s)
+{
+    const struct rho_tracker_config *config = &tracker->config;
+    struct rho_kalman stop = track->kalman;
+    const float limit_mps = STOP_S * config->accel_max_mps2;
+    float way_m[2], way_m2 = 0.0f, speed2 = 0.0f;
+    for (int i = 0; i < 2; i++) {
+        way_m[i] = back_s * stop.state[3 + i];
+        way_m2 += way_m[i] * way_m[i];
+        speed2 += stop.state[3 + i] * stop.state[3 + i];
+        stop.state[i] -= way_m[i];
+        stop.state[3 + i] = 0.0f;
+    }
+    if (!track->was_confirmed || track->misses_in_row >= RHO_HYPOTHESES_MEMORY ||
+        config->v_min_mps > 0.0f || !(back_s > 0.0f) || speed2 > limit_mps * limit_mps ||
+        way_m2 < rho_track_sigma_m(track) * rho_track_sigma_m(track)) {
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            stop.covariance[RHO_AT(3 + i, k)] = 0.0f;
+        }
+        for (int k = 0; k <= i && i < 2; k++) {
+            stop.covariance[RHO_AT(i, k)] += way_m[i] * way_m[k];
+        }
+    }
+    rho_hypotheses_add(&tracker->hypotheses, track->slot, &stop, look->time_us, STOP_NAT);
+}
 
 /*
  * Hypotheses branch by all plots that no other track was assigned; the plot of the best hypothesis
@@ -53,8 +89,12 @@ static void update_hypotheses(struct rho_tracker *tracker, const struct rho_look
     } else {
         rho_work_release_share(work);
     }
+    const float back_s = rho_seconds_between(track->updated_us, look->time_us);
     /* cannot fail: the track has hypotheses */
     (void)!rho_track_commit_scan(track, &scan, look->scan->sensor_id, &look->model);
+    if (log_miss < 0.0f && (track->plot < 0 || track->maneuver_probability > STOPS_ABOVE)) {
+        add_stop(tracker, look, track, back_s);
+    }
     refused = pool->updates_refused - refused;
     tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
     if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {

@@ -1,30 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * early_ends: where many tracks end soon after they were confirmed, new ones need more evidence.
+ * early_ends: where many tracks are of objects that are seldom seen, tracks need more evidence.
  *
  * The track score compares a target with clutter that is independent from scan to scan. It does not
- * model objects that move as targets do and are seldom seen: second-time-around echoes, sidelobes,
- * the edge of a weather front. Such an object becomes a track whenever three of its plots follow
- * each other by chance, and is missed then. Tracks that end so early are counted, and so are
- * established ones, which have 16 hits. The evidence that a track with h hits and m misses is seen
+ * model objects that move as targets do and are seldom seen, as second-time-around echoes; they
+ * become tracks whenever three of their plots follow each other. The evidence that a track is seen
  * as often as targets are, and not 0.3 times as often, is
  *
- *      e = h ln(1 / 0.3) - m ln((1 - 0.3 p) / (1 - p))
+ *      e = sum of ln(G / (1 + 0.3 (G - 1))) over its hits  -  m ln((1 - 0.3 p) / (1 - p))
  *
- * with p the detection probability of established tracks. Three hits are 3.6. Where D tracks ended
- * early and G were established in the last half an hour, or soon will be (e is 7.2), a track is
- * confirmed from
+ * with G of track_life.c, p the detection probability of tracks with eight hits, and m its misses;
+ * that of a probably hidden target or blind look counts less. Three sure hits are 3.6. Tracks whose
+ * score reached the confirm threshold and whose e fell by a hit below 0 are counted as seldom seen,
+ * tracks with 16 hits as established. Where D of the former and G of the latter came in the last
+ * half an hour, or soon will (e is 7.2), a track is shown from
  *
  *      e = 3.6 + ln(10 (D - W - sqrt(D) / 2) / (G + 2))
  *
- * on, or from 16 hits on: one in ten of the confirmed tracks will be false (Wald). W is the number
- * that false_tracks_per_hour allows, and half a standard deviation of D may be chance; where no
- * more tracks end early, no evidence is needed. Until then a track is tentative.
- *
- * A track has ended early if its score had reached the confirm threshold, and misses ended it
- * before 16 hits with e below 0. Targets that stay only for a short time are counted, too: with one
- * false track in twenty instead of ten, all targets would be confirmed later where aircraft come
- * and go.
+ * on: one in ten of the confirmed tracks will be false (Wald). W is the number that
+ * false_tracks_per_hour allows, and half a standard deviation of D may be chance.
  */
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
@@ -36,7 +30,7 @@
 
 static float evidence_of_target(const struct step *step, const struct rho_track *track)
 {
-    return (float)track->hits * HIT_NAT - (float)track->misses * step->miss_nat;
+    return track->seen_nat - track->missed * step->miss_nat;
 }
 
 void rho_evidence_update(struct step *step)
@@ -50,6 +44,9 @@ void rho_evidence_update(struct step *step)
         const float kept = rho_exp(-dt_s / MEMORY_S);
         tracker->ended_early *= kept;
         tracker->established *= kept;
+        tracker->lived *= kept;
+        tracker->gone *= kept;
+        tracker->returned *= kept;
         tracker->straight_s *= kept;
         tracker->turning_s *= kept;
         rho_manoeuvres_learn(tracker, look, dt_s);
@@ -63,10 +60,11 @@ void rho_evidence_update(struct step *step)
         sensors += tracker->sensors[i].pace.is_heard ? 1.0f : 0.0f;
     }
     /* evidence that a miss takes from a track, by the hits and misses of established tracks */
-    float hits = PRIOR_HITS, misses = 1.0f;
+    const float pd = rho_exp(look->log_pd);
+    float hits = PRIOR_LOOKS * pd, misses = PRIOR_LOOKS * (1.0f - pd);
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (rho_life_is_established(track) && track->hits < UINT16_MAX) { /* no saturated counts */
+        if (track->hits >= TEACHER_HITS && track->hits < UINT16_MAX) { /* no saturated counts */
             hits += (float)track->hits;
             misses += (float)track->misses;
         }
@@ -93,21 +91,18 @@ void rho_evidence_update(struct step *step)
 
 int rho_evidence_is_lacking(const struct step *step, const struct rho_track *track)
 {
-    return step->needed_nat > 0.0f && !rho_life_is_established(track) &&
-           evidence_of_target(step, track) < step->needed_nat;
+    return step->needed_nat > 0.0f && evidence_of_target(step, track) < step->needed_nat;
 }
 
-void rho_evidence_count_established(struct rho_tracker *tracker, const struct rho_track *track)
+void rho_evidence_count(const struct step *step, struct rho_track *track)
 {
+    struct rho_tracker *tracker = step->tracker;
     if (track->hits == RHO_ESTABLISHED_HITS && track->plot >= 0) {
         tracker->established += 1.0f;
     }
-}
-
-void rho_evidence_count_ended(const struct step *step, const struct rho_track *track)
-{
-    if (!rho_life_is_established(track) && evidence_of_target(step, track) < 0.0f &&
-        track->score_max_mnat >= step->tracker->confirm_mnat) {
-        step->tracker->ended_early += 1.0f;
+    if (!track->is_seldom && track->score_max_mnat >= tracker->confirm_mnat &&
+        evidence_of_target(step, track) < SELDOM_NAT) {
+        track->is_seldom = 1;
+        tracker->ended_early += 1.0f;
     }
 }

@@ -21,7 +21,7 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
-#include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
 
 static float sensor_range_max(const struct rho_look *look)
 {
@@ -222,6 +222,25 @@ static void add_strobe_densities(struct rho_tracker *tracker, const struct rho_l
     }
 }
 
+/* True of an echo where an operator's track is. */
+static int is_operators_echo(const struct rho_tracker *tracker, const struct rho_echo *echo)
+{
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        if (!track->is_operators) {
+            continue;
+        }
+        const float dx_m = echo->x_m - track->kalman.state[0];
+        const float dy_m = echo->y_m - track->kalman.state[1];
+        const float sigma_m = rho_track_sigma_m(track);
+        if (dx_m * dx_m + dy_m * dy_m <
+            ECHO_CHI2 * (sigma_m * sigma_m + echo->along[0] + echo->across[0])) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look,
                         struct rho_work *work)
 {
@@ -235,7 +254,10 @@ void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look
     memset(map->denser, 0, look->num_gated * sizeof map->denser[0]);
     memset(map->best_per_m2, 0, look->num_gated * sizeof map->best_per_m2[0]);
     const float range_max_m = sensor_range_max(look);
-    unsigned place = map->first_echo, left_out = 0;
+    unsigned place = map->first_echo, left_out = 0, operators = 0;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        operators += tracker->tracks[i].is_operators;
+    }
     rho_work_begin_phase(tracker, work, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
         struct rho_echo *echo = &map->echoes[place];
@@ -244,7 +266,8 @@ void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look
         echo->weight = 0.0f;
         if (echo->hits == 0 || echo->sensor_id != scan->sensor_id ||
             !rho_measurement_covers(look->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                    echo->x_m, echo->y_m)) {
+                                    echo->x_m, echo->y_m) ||
+            (operators > 0 && is_operators_echo(tracker, echo))) {
             continue;
         }
         if (rho_work_is_spent(work)) { /* the next scan begins with the first one left out */
@@ -342,17 +365,20 @@ static int is_in_set(const uint32_t *set, uint32_t row)
     return (set[row / 32] >> row % 32 & 1u) != 0;
 }
 
-/* True where a track is as fast as v_min, or, where targets may stand, has ever left its start. */
+/*
+ * True where a track is as fast as v_min, or, where targets may stand, has ever left its start; and
+ * where an operator started it.
+ */
 static int moves_as_target(const struct rho_tracker *tracker, struct rho_track *track)
 {
     const float *state = track->kalman.state;
     const float v_min_mps = tracker->config.v_min_mps;
-    if (!track->was_confirmed || track->hits < TARGET_TRACK_HITS) {
-        return 0;
+    if (track->is_operators || !track->was_confirmed || track->hits < TARGET_TRACK_HITS) {
+        return track->is_operators;
     }
     const float dx_m = state[0] - track->start_m[0], dy_m = state[1] - track->start_m[1];
     const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
-    track->has_moved = track->has_moved || dx_m * dx_m + dy_m * dy_m > far_m * far_m;
+    track->has_moved |= dx_m * dx_m + dy_m * dy_m > far_m * far_m;
     return v_min_mps > 0.0f ? state[3] * state[3] + state[4] * state[4] >= v_min_mps * v_min_mps
                             : track->has_moved != 0;
 }
@@ -402,13 +428,17 @@ static void update_echoes(struct rho_tracker *tracker, const struct rho_look *lo
     }
 }
 
-/* True of a valid plot of no echo and, where targets may stand still, of no target's track. */
+/*
+ * True of a valid plot of no echo. Where targets may stand still, plots of targets' tracks become
+ * none; and no plot does where what never moved may be a target.
+ */
 static int becomes_echo(const struct rho_look *look, const uint32_t *targets, const uint32_t *taken,
                         uint32_t row)
 {
     const int may_stand = !(look->tracker->clutter_map.v_min_mps > 0.0f);
     return look->fates[row] != RHO_FATE_INVALID && !is_in_set(taken, row) &&
-           !(may_stand && is_in_set(targets, row));
+           !(may_stand &&
+             (look->tracker->config.standing == RHO_STANDING_TARGETS || is_in_set(targets, row)));
 }
 
 void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)

@@ -22,11 +22,6 @@ struct work_share {
     unsigned waiting;   /* tracks of which no plots were scored yet */
 };
 
-/* A rectangle of places, sides included. */
-struct plot_box {
-    float x_min_m, x_max_m, y_min_m, y_max_m;
-};
-
 /* Runs of successive plots with a bounding box each, where the plot index has one strip. */
 #define RHO_PLOT_BOXES 8
 
@@ -71,10 +66,10 @@ struct rho_look {
     float sigma_max_m, offset_max_s;
     /* bit i: track i is in the field of view and was predicted */
     uint32_t in_view[(RHO_MAX_TRACKS + 31) / 32];
-    struct plot_box boxes[RHO_PLOT_BOXES]; /* bounding boxes of runs of successive plots */
-    uint32_t plots_of_box;                 /* plots in each run */
-    float log_pd, log_miss;                /* ln of pd and of 1 - pd, outside of the notch */
-    float log_false_bearings;              /* ln of the density of false bearings a radian */
+    struct rho_extent boxes[RHO_PLOT_BOXES]; /* bounding boxes of runs of successive plots */
+    uint32_t plots_of_box;                   /* plots in each run */
+    float log_pd, log_miss;                  /* ln of pd and of 1 - pd, outside of the notch */
+    float log_false_bearings;                /* ln of the density of false bearings a radian */
     struct rho_notch_look notch_look; /* what a sensor with a Doppler notch sees; 0: no notch */
     /* ln of the intervals in which clutter is uniform: height, m; velocity on one axis, m/s */
     float log_height, log_rates;

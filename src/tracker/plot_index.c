@@ -63,15 +63,12 @@ static void bound_plot_boxes(struct rho_look *look)
     look->plots_of_box = (look->num_gated + RHO_PLOT_BOXES - 1u) / RHO_PLOT_BOXES;
     for (unsigned k = 0; k < RHO_PLOT_BOXES; k++) {
         const uint32_t first = k * look->plots_of_box, end = first + look->plots_of_box;
-        struct plot_box box = {RHO_LIMIT_POSITION_M, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
-                               -RHO_LIMIT_POSITION_M};
+        struct rho_extent box = {RHO_LIMIT_POSITION_M, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
+                                 -RHO_LIMIT_POSITION_M};
         for (uint32_t i = first; i < end && i < look->num_gated; i++) {
             const struct rho_plot *plot = &look->scan->plots[i];
             if (look->fates[i] == RHO_FATE_HELD) {
-                box.x_min_m = rho_smaller(plot->x_m, box.x_min_m);
-                box.x_max_m = rho_larger(plot->x_m, box.x_max_m);
-                box.y_min_m = rho_smaller(plot->y_m, box.y_min_m);
-                box.y_max_m = rho_larger(plot->y_m, box.y_max_m);
+                rho_extent_add(&box, plot->x_m, plot->y_m);
             }
         }
         look->boxes[k] = box;
@@ -101,9 +98,9 @@ struct plots_near rho_plots_near(const struct rho_tracker *tracker, float x_min_
 
 int rho_plots_next_box(const struct rho_look *look, struct plots_near *near)
 {
-    const struct plot_box within = near->within;
+    const struct rho_extent within = near->within;
     for (unsigned k = near->box; k < RHO_PLOT_BOXES; k++) {
-        const struct plot_box *box = &look->boxes[k];
+        const struct rho_extent *box = &look->boxes[k];
         if (!(box->x_min_m > within.x_max_m || box->x_max_m < within.x_min_m ||
               box->y_min_m > within.y_max_m || box->y_max_m < within.y_min_m)) {
             const uint32_t end = (k + 1u) * look->plots_of_box;

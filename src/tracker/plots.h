@@ -11,9 +11,9 @@
  *     for (uint32_t row; rho_plots_next(look, &near, &row);)
  */
 struct plots_near {
-    uint32_t next, end;     /* places in the strip or box that is read */
-    unsigned box;           /* the box that is read next */
-    struct plot_box within; /* the rectangle */
+    uint32_t next, end;       /* places in the strip or box that is read */
+    unsigned box;             /* the box that is read next */
+    struct rho_extent within; /* the rectangle, sides included */
 };
 
 /* Sorts the scan's held plots into strips, or bounds their boxes. */
@@ -36,8 +36,7 @@ static inline int rho_plots_next(const struct rho_look *look, struct plots_near 
 /* True where a plot is in the iterator's rectangle, sides included. */
 static inline int rho_plots_is_within(const struct plots_near *near, const struct rho_plot *plot)
 {
-    return plot->x_m >= near->within.x_min_m && plot->x_m <= near->within.x_max_m &&
-           plot->y_m >= near->within.y_min_m && plot->y_m <= near->within.y_max_m;
+    return rho_extent_holds(&near->within, plot->x_m, plot->y_m);
 }
 
 /* Upper bound of the number of plots that the iterator has still to give. */

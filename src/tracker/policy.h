@@ -87,6 +87,23 @@
  */
 #define BLIND_PERCENT_MAX 2
 
+/* counted_pd.c */
+
+/*
+ * Looks that a stated P_D weighs beside those counted, and at which counts are halved. Half: the
+ * first misses count for the sensor. Twice: a P_D that is told too high ends the first tracks.
+ */
+#define STATED_LOOKS 4.0f
+#define COUNTED_LOOKS_MAX 2000.0f
+/*
+ * Hits that an octant's P_D as the sensor's weighs; ratio of both that is as good as 1. Half:
+ * chance makes octants. Twice: a sector that sees less is found late.
+ */
+#define OCTANT_HITS 20.0f
+#define OCTANT_SAME 0.1f
+/* Largest learned P_D. Half: hits are worth less. Twice: one miss ends a track. */
+#define PD_MOST 0.98f
+
 /* learned_pd.c */
 
 /*
@@ -160,8 +177,8 @@
 /* pd of a target in the Doppler notch. Half or twice: a plot there weighs less or more by ln 2. */
 #define NOTCH_PD 0.03f
 /*
- * Expected clutter plots in its gate up to which a track coasts in the notch, or hidden
- * (track_life.c). Half: tracks end in thin clutter. Twice: they claim clutter and drift away.
+ * Expected clutter plots in its gate up to which a track coasts in the notch. Half: tracks end in
+ * thin clutter. Twice: they claim clutter and drift away.
  */
 #define COAST_CLUTTER_MAX 3.0f
 /*
@@ -202,16 +219,6 @@
  * beams that return late find no track. Twice: tracks of targets that have gone stay.
  */
 #define UNLOOKED 4.0f
-/*
- * Misses in a row that end a track after a silence; those before it are included. Half: one miss
- * after an outage ends a track. Twice: gone targets stay for three more scans.
- */
-#define OVERDUE_MISSES 3
-/*
- * Clutter plots expected in the gate above which a plot after a long silence is doubtful. Half:
- * returning targets need another plot. Twice: clutter keeps tracks of gone targets.
- */
-#define DOUBTFUL_PLOTS 0.1f
 
 /* early_ends.c */
 
@@ -239,10 +246,15 @@
  */
 #define MEMORY_S 1600.0f
 /*
- * Prior hits of established tracks for one miss. Half: at first a miss takes 1.4 nat instead
- * of 2. Twice: it takes 2.6, and targets with misses are confirmed late.
+ * Prior weight of the stated P_D in that of established tracks, in looks. Half: the first misses
+ * make objects of targets. Twice: a P_D that is told too high hides targets for longer.
  */
-#define PRIOR_HITS 9.0f
+#define PRIOR_LOOKS 10.0f
+/*
+ * Evidence below which a track is of an object that is seldom seen: a hit less. Half: targets of a
+ * lower P_D than told count. Twice: objects are found late, and more of them are shown.
+ */
+#define SELDOM_NAT (-HIT_NAT)
 
 /* track_life.c */
 
@@ -252,15 +264,53 @@
  */
 #define TENTATIVE_FALL_MNAT 4605
 /*
- * Fall of the score at which a target has probably gone, ln 200: a target's mean lifetime is 200
- * scans. Half: two misses make a track tentative. Twice: gone targets are reported longer.
+ * Mean times until a target leaves, and until it is hidden, before any is learned, in scan
+ * intervals. Half: two misses hide a track. Twice: targets that have gone are shown for longer.
  */
-#define LIFETIME_MNAT 5298
+#define LIFETIME_SCANS 200.0f
+#define VISIBLE_SCANS LIFETIME_SCANS
+/* Scans that weigh as much. Half: few tracks set the rates. Twice: they are learned in hours. */
+#define LIFE_PRIOR_SCANS (2.0f * LIFETIME_SCANS)
 /*
- * Misses for which the track of a hidden target is kept, tentative, over coast_scans_max. Half: it
- * ends about as any other. Twice: it comes back beside a new track of its target.
+ * Mean time for which a target is hidden, over coast_scans_max scan intervals. Half: targets that
+ * come back get a new track. Twice: lost tracks of turning targets stay beside new ones.
  */
-#define HIDE_SHARE 2.4f
+#define HIDDEN_SHARE 0.7f
+/*
+ * Odds of existence of a track whose score is at the confirm threshold; ln of the largest factor on
+ * them, as a start may be of an image or a ghost, which the score does not know. Half: one miss
+ * hides a new track. Twice: tracks of clutter are shown for one miss longer.
+ */
+#define CONFIRMED_ODDS 5.0f
+#define START_MAX_NAT 1.5f
+/*
+ * Probability of existence from which on a track that was confirmed is shown, and is shown again.
+ * Half: targets that have gone are shown twice as long. Twice: two misses hide a track.
+ */
+#define SHOWN 0.48f
+#define SHOWN_AGAIN 0.8f
+/*
+ * Below it a track ends; one that is not established. Half: tracks that nothing is left of take
+ * the first plots of new targets. Twice: returning targets get new tracks.
+ */
+#define ENDED 0.05f
+#define ENDED_NEW (2.0f * ENDED)
+/*
+ * Share of targets that a look can see above which all count as visible. Half: clutter draws tracks
+ * of hidden targets away. Twice: each look costs two logarithms a track, for the same tracks.
+ */
+#define SURELY_VISIBLE 0.95f
+/*
+ * Probability that a look is blind, and that another blind one follows. Half: of a blind look fewer
+ * tracks are spared. Twice: that of a sensor with two tracks, which both leave, counts as blind.
+ */
+#define BLIND_PRIOR 0.005f
+#define BLIND_STAYS 0.8f
+/*
+ * Clutter plots expected in the gate of an updated estimate above which its place is unknown, and
+ * not shown. Half: tracks in dense clutter are hidden. Twice: places off by the gate are shown.
+ */
+#define PLACE_CLUTTER_MAX 1.0f
 
 /* manoeuvre_interval.c */
 

@@ -4,7 +4,6 @@
 
 #include <string.h>
 
-#include "mirror_state.h"
 #include "plots.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"

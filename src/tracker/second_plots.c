@@ -7,7 +7,7 @@
 #include "plots.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
 #include "sensors.h"
 #include "step.h"
 

@@ -109,11 +109,9 @@ static int sector_holds_gate_end(const struct rho_look *look, const struct rho_t
     const float dx_m = track->kalman.state[0] - (look->sensor ? look->sensor->x_m : 0.0f);
     const float dy_m = track->kalman.state[1] - (look->sensor ? look->sensor->y_m : 0.0f);
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-    float margin_rad =
-        GATE_CIRCLE_SIGMAS * rho_track_sigma_m(track) / (range_m > 1.0f ? range_m : 1.0f);
-    if (!(margin_rad < 0.5f * width_rad)) {
-        margin_rad = 0.5f * width_rad;
-    }
+    const float margin_rad =
+        rho_smaller(GATE_CIRCLE_SIGMAS * rho_track_sigma_m(track) / rho_larger(range_m, 1.0f),
+                    0.5f * width_rad);
     /* the track's place, rotated about the sensor by a small angle */
     const float turn = turn_sign * margin_rad;
     return rho_measurement_covers(look->sensor, scan->sector_from_rad, scan->sector_to_rad,

@@ -3,15 +3,7 @@
  * sight: would this look see this track? Three answers, each with its contributors in their order:
  * whether it may see the track at all, whether no plot is then a miss, and how probable a plot is.
  */
-#include "rhotrack/detail/approx.h"
 #include "sensors.h"
-
-void rho_look_set_pd(struct rho_look *look)
-{
-    float pd = look->sensor ? look->sensor->pd : look->tracker->config.pd;
-    look->log_pd = rho_log(pd);
-    look->log_miss = rho_log(1.0f - pd);
-}
 
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track)
 {
@@ -31,12 +23,20 @@ int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track
                                     track);
 }
 
-struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track)
+struct detection rho_look_visible(const struct rho_look *look, const struct rho_track *track)
 {
     struct detection seen = {look->log_pd, look->log_miss};
     seen = rho_learning_detection(look, track, seen);
+    if (look->scan) {
+        seen = rho_pd_detection(look, track, seen);
+    }
     if (RHO_DOPPLER_NOTCH && track->blind_percent > 0) {
         seen = rho_notch_detection(look, track, seen);
     }
     return seen;
+}
+
+struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track)
+{
+    return rho_life_detection(track, rho_look_visible(look, track));
 }

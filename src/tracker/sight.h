@@ -5,17 +5,38 @@
 
 #include "look.h"
 
-/* sight.c: sets log_pd and log_miss by the look's sensor, or by the tracker's default pd */
-void rho_look_set_pd(struct rho_look *look);
-/* True where the look may see a track at all; a frame: every track that is not frozen. */
-int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
-/* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
-int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track);
 /* ln of the probabilities that the sensor detects a target at the track's place or misses it. */
 struct detection {
     float log_pd, log_miss;
 };
+
+/*
+ * counted_pd.c: sets log_pd and log_miss by the look's sensor, or by the default pd, and by
+ * what was counted of it. row: NULL, nothing.
+ */
+void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row);
+/* Counts a look at a track, `visible` of which a hit is expected, as a hit by a probability. */
+void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit);
+/* The same of a look at a track by plots, for the track's octant, too. */
+void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
+                        float hit);
+struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track,
+                                  struct detection elsewhere);
+
+/* Limit of the evidence of one look: beyond it nothing changes, and powers stay finite. */
+#define RHO_LOOK_LIMIT_NAT 30.0f
+
+/* sight.c */
+/* True where the look may see a track at all; a frame: every track that is not frozen. */
+int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
+/* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
+int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track);
+/* The same of a target that is surely visible. */
+struct detection rho_look_visible(const struct rho_look *look, const struct rho_track *track);
 struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track);
+
+/* track_life.c: detection of a track whose target may be hidden */
+struct detection rho_life_detection(const struct rho_track *track, struct detection visible);
 
 /* coverage.c: true where a plot, within its noise, is in the stated coverage; NULL covers all */
 int rho_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,

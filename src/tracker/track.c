@@ -51,6 +51,7 @@ static void add_score(struct rho_track *track, int32_t mnat)
     score = score > RHO_SCORE_MAX_MNAT ? RHO_SCORE_MAX_MNAT : score;
     score = score < -RHO_SCORE_MAX_MNAT ? -RHO_SCORE_MAX_MNAT : score;
     track->score_mnat = (int32_t)score;
+    track->look_nat += 0.001f * (float)mnat;
     if (track->score_mnat > track->score_max_mnat) {
         track->score_max_mnat = track->score_mnat;
     }
@@ -75,30 +76,6 @@ void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat)
 void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat)
 {
     add_score(track, -loss_mnat);
-}
-
-/* Fall of the track score below its highest value so far, mnat. */
-static int32_t fall_of_score(const struct rho_track *track)
-{
-    return track->score_max_mnat - track->score_mnat;
-}
-
-enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
-                                                 const struct rho_track_limits *limits)
-{
-    enum rho_track_event event = RHO_TRACK_DOUBT; /* a tentative track stays tentative by it */
-    if (fall_of_score(track) < limits->doubt_mnat &&
-        (track->was_confirmed || track->score_mnat >= limits->confirm_mnat)) {
-        event = RHO_TRACK_CONFIRM;
-        track->was_confirmed = 1;
-    }
-    if (track->misses_in_row >= limits->misses_in_row_max ||
-        (track->was_confirmed ? fall_of_score(track) >= limits->fall_mnat
-                              : track->score_mnat < limits->tentative_mnat)) {
-        event = RHO_TRACK_DROP;
-    }
-    apply_event_to_status(track, event);
-    return (enum rho_track_status)track->status;
 }
 
 static float root_mean_variance(const struct rho_kalman *kalman, int first)
@@ -557,12 +534,16 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
     if (status != RHO_OK) {
         return status;
     }
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) { /* else merging has set the time */
+        track->time_us = bearing->time_us;
+    }
+    if (bearing->row < 0) { /* of several bearings, none of which is claimed */
+        add_score(track, gain_mnat);
+        return RHO_OK;
+    }
     store_velocity_after_hit(track, track->plot < 0);
     if (track->plot < 0) {
         count_hit(track);
-    }
-    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) { /* else merging has set the time */
-        track->time_us = bearing->time_us;
     }
     store_claimed_plot(track, bearing->time_us, bearing->sensor_id, bearing->row);
     add_score(track, gain_mnat);

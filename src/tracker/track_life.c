@@ -1,10 +1,42 @@
 /* SPDX-License-Identifier: MIT */
-/* track_life: the end of a track, and the thresholds that confirm and end tracks. */
+/*
+ * track_life: the probability that a track's target exists, and what follows from it.
+ *
+ *                 hide                     A target is visible, hidden behind something, or gone.
+ *      visible <--------> hidden           Time passes between looks by the rates of a chain in
+ *         |      appear     |              continuous time; its unit is the scan interval of the
+ *         | death           | death        slowest sensor that sees the track, so that a fast
+ *         v                 v              sensor beside it makes no target die sooner.
+ *                gone
+ *
+ * A look tells G, the likelihood of what it saw near the track over that of clutter alone. It was
+ * scored with P_D times the share of such targets that it can see (rho_life_detection), as misses
+ * of a hidden target are no evidence, and clutter must not draw its track away. So G is that of an
+ * existing target, and with it, of a visible target's L = 1 + (G - 1) / share,
+ *
+ *      visible' = visible L / N     hidden' = hidden / N     N = 1 + visible (L - 1)
+ *
+ * Whose miss is it? Where a sensor sees nothing, all its tracks are missed at once. A look is blind
+ * with a small probability, and says nothing then; given all looks at established tracks the odds
+ * of it are prior / (1 - prior) over the product of their N. Another one probably follows, with a
+ * lower P_D. Targets may leave together: tracks are spared for coast_scans_max scans at most.
+ *
+ * Rates of death and hiding are learned over half an hour: scans that established tracks lived,
+ * ends, and expected returns. The longest hides end, too, so hiding stays above its first rate.
+ *
+ * From the probabilities follow a track's status, once its score has confirmed it, and its end.
+ * What the chain does not know stands beside it: early_ends.c, unseen_tracks.c, and places here.
+ */
 #include "clutter.h"
 #include "plots.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/doppler_notch.h"
+#include "sight.h"
 #include "step.h"
+
+/* Odds beyond which a look surely sees. */
+#define SURELY_SEES 1e12f
 
 void rho_life_end(const struct step *step, struct rho_track *track)
 {
@@ -34,59 +66,236 @@ void rho_life_remove_ended(struct rho_tracker *tracker)
     }
 }
 
-struct rho_track_limits rho_life_limits(const struct rho_look *look)
+int32_t rho_life_least_mnat(const struct rho_tracker *tracker)
 {
-    const struct rho_tracker *tracker = look->tracker;
-    /*
-     * Largest loss of score by one miss, of all sensors. With the loss of the scan's own sensor
-     * alone, a sensor with a low pd would lower the limit for the misses of a better one.
-     */
-    float loss = -look->log_miss;
-    for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        float other = -rho_log(1.0f - tracker->sensors[i].sensor.pd);
-        loss = other > loss ? other : loss;
+    return tracker->start_mnat - TENTATIVE_FALL_MNAT;
+}
+
+static float limited_exp(float nat)
+{
+    return rho_exp(rho_smaller(rho_larger(nat, -RHO_LOOK_LIMIT_NAT), RHO_LOOK_LIMIT_NAT));
+}
+
+void rho_life_begin(struct rho_track *track, int64_t time_us, int32_t confirm_mnat)
+{
+    const float nat =
+        rho_smaller(0.001f * (float)(track->score_mnat - confirm_mnat), START_MAX_NAT);
+    const float odds = CONFIRMED_ODDS * limited_exp(nat);
+    track->visible = odds / (1.0f + odds);
+    track->hidden = 0.0f;
+    track->lived_us = time_us;
+    track->look_nat = 0.0f;
+    track->seen_nat = (float)track->hits * HIT_NAT;
+    track->missed = 0.0f;
+    track->seen_share = 1.0f;
+}
+
+struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker)
+{
+    if (!tracker || !rho_tracker_is_ready(tracker)) {
+        return (struct rho_tracker_life){0};
     }
-    return (struct rho_track_limits){
-        .confirm_mnat = tracker->confirm_mnat,
-        /* the sensors of a frame of bearings are assumed to miss a target together */
-        .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
-        .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat = rho_score_to_mnat(loss * (float)tracker->config.coast_scans_max *
-                                       (float)tracker->looks_max),
-        .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
+    const float lived = tracker->lived + LIFE_PRIOR_SCANS;
+    const float death = (tracker->gone + LIFE_PRIOR_SCANS / LIFETIME_SCANS) / lived;
+    const float hide = (tracker->returned + LIFE_PRIOR_SCANS / VISIBLE_SCANS) / lived;
+    return (struct rho_tracker_life){
+        .death = death,
+        .hide = rho_larger(hide, 1.0f / VISIBLE_SCANS),
+        .appear = 1.0f / (HIDDEN_SHARE * (float)tracker->config.coast_scans_max),
+        .lived_scans = tracker->lived,
     };
 }
 
-void rho_life_apply(const struct step *step, struct rho_track *track,
-                    const struct rho_track_limits *limits)
+/*
+ * Share of targets like this one that the look can see: not hidden, and the look not blind. A track
+ * that was never confirmed has all to show: its misses count in full, so that clutter's ends soon.
+ */
+static float seeing_share(const struct rho_look *look, const struct rho_track *track)
 {
-    const uint8_t was_confirmed = track->was_confirmed;
-    const int32_t most_mnat = 2 * limits->doubt_mnat;
-    const int is_low = track->score_max_mnat - track->score_mnat > most_mnat;
-    const int is_missed_out = track->misses_in_row >= limits->misses_in_row_max;
-    struct rho_track_limits own = *limits;
-    /*
-     * The target of an established track that has moved may be hidden: its track ends later, and
-     * its score is held, as misses are no evidence then, and two plots should confirm its return.
-     */
-    if ((is_low || is_missed_out) && rho_life_is_established(track) &&
-        (RHO_MAX_ECHOES == 0 || track->has_taken_back) &&
-        rho_clutter_in_gate(&step->look, track) <= COAST_CLUTTER_MAX) {
-        const float misses = HIDE_SHARE * (float)own.misses_in_row_max;
-        const int32_t least_mnat = track->score_max_mnat - most_mnat;
-        own.misses_in_row_max = misses < (float)UINT8_MAX ? (uint8_t)misses : UINT8_MAX;
-        own.fall_mnat = own.fall_mnat > most_mnat ? own.fall_mnat : most_mnat + 1;
-        track->score_mnat = track->score_mnat > least_mnat ? track->score_mnat : least_mnat;
+    if (!track->was_confirmed) {
+        return 1.0f;
     }
-    if (is_missed_out || rho_evidence_is_lacking(step, track)) {
-        own.doubt_mnat = 0;
+    const float both = track->visible + track->hidden;
+    const float sees = look->row ? 1.0f - look->row->blind : 1.0f;
+    const float share = both > 0.0f ? sees * track->visible / both : 1.0f;
+    return share < SURELY_VISIBLE ? rho_larger(share, 1e-6f) : 1.0f;
+}
+
+/* Lets time go by until the look's: the target may have gone, become hidden or visible. */
+static void pass_time(struct rho_tracker *tracker, const struct rho_look *look,
+                      const struct rho_tracker_life *rates, struct rho_track *track)
+{
+    const float dt_s = rho_seconds_between(track->lived_us, look->time_us);
+    if (dt_s > 0.0f) {
+        const float interval_s = rho_unseen_interval_s(look, track);
+        const float scans = interval_s > 0.0f ? dt_s / interval_s : 1.0f;
+        const float both = track->visible + track->hidden;
+        /* an operator who declares a notch says that targets stay in it */
+        const float lived = rho_notch_is_mostly_blind(track) ? 0.0f : scans;
+        const float exists = both * rho_exp(-rates->death * lived);
+        const float was_hidden = both > 0.0f ? track->hidden / both : 0.0f;
+        const float settled = rates->hide / (rates->hide + rates->appear);
+        const float stays = rho_exp(-(rates->hide + rates->appear) * scans);
+        /* the score of a track that was never confirmed has to fall by all misses */
+        const float is_hidden =
+            track->was_confirmed ? settled + (was_hidden - settled) * stays : 0.0f;
+        track->hidden = exists * is_hidden;
+        track->visible = exists * (1.0f - is_hidden);
+        track->appeared = was_hidden * (1.0f - settled) * (1.0f - stays) / (1.0f - is_hidden);
+        track->lived_us = look->time_us;
+        tracker->lived += rho_life_is_established(track) ? lived : 0.0f;
     }
-    rho_evidence_count_established(step->tracker, track);
-    if (rho_track_apply_thresholds(track, &own) == RHO_TRACK_FREE) {
-        rho_evidence_count_ended(step, track);
+    track->seen_share = seeing_share(look, track);
+}
+
+void rho_life_pass(struct rho_tracker *tracker, const struct rho_look *look)
+{
+    const struct rho_tracker_life rates = rho_tracker_life(tracker);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status != RHO_TRACK_FREE && !rho_track_is_frozen(track)) {
+            pass_time(tracker, look, &rates, track);
+        }
+    }
+}
+
+struct detection rho_life_detection(const struct rho_track *track, struct detection visible)
+{
+    if (track->seen_share < 1.0f) {
+        const float pd = track->seen_share * rho_exp(visible.log_pd);
+        return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
+    }
+    return visible;
+}
+
+static int was_looked_at(const struct rho_track *track)
+{
+    return track->status != RHO_TRACK_FREE && (track->look_nat > 0.0f || track->look_nat < 0.0f);
+}
+
+/*
+ * L - 1 of a visible target; ratio: G (top of file). It is that of a miss at least: hypotheses that
+ * are dropped make G smaller, and L would be negative.
+ */
+static float visible_gain(const struct rho_track *track, float ratio)
+{
+    return track->seen_share < 1.0f ? rho_larger((ratio - 1.0f) / track->seen_share, -PD_MOST)
+                                    : ratio - 1.0f;
+}
+
+/* Probability that the look was blind, by all established tracks (top of file). */
+static float blind_probability(const struct rho_look *look)
+{
+    const struct rho_tracker *tracker = look->tracker;
+    const float prior = rho_larger(look->row ? look->row->blind : 0.0f, BLIND_PRIOR);
+    float seeing = (1.0f - prior) / prior; /* odds */
+    for (unsigned row = 0; row < tracker->num_tracks && seeing < SURELY_SEES; row++) {
+        const struct rho_track *track = &tracker->tracks[row];
+        if (was_looked_at(track) && rho_life_is_established(track)) {
+            seeing *= 1.0f + track->visible * visible_gain(track, limited_exp(track->look_nat));
+        }
+    }
+    return 1.0f / (1.0f + seeing);
+}
+
+/* ln of the likelihood of what a look saw with a target over that with an object seldom seen. */
+static float often_nat(float ratio)
+{
+    return rho_log(ratio / (1.0f + SELDOM * (ratio - 1.0f)));
+}
+
+/* Evidence that the track is of a target, and not of an object that is seldom seen. */
+static void count_seen_or_missed(struct rho_tracker *tracker, const struct rho_look *look,
+                                 struct rho_track *track, float ratio, float blind)
+{
+    if (ratio > 1.0f) {
+        track->seen_nat += often_nat(ratio);
+        tracker->returned += rho_life_is_established(track) ? track->appeared : 0.0f;
+    } else {
+        /* in misses of a visible target where the sensor has its usual P_D */
+        track->missed +=
+            (1.0f - blind) * often_nat(ratio) / often_nat(1.0f - rho_exp(look->log_pd));
+    }
+}
+
+void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
+{
+    const float blind = blind_probability(look);
+    if (look->row && look->teaches) {
+        look->row->blind = BLIND_STAYS * blind;
+    }
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (was_looked_at(track)) {
+            const float ratio = limited_exp(track->look_nat);
+            const float gain = visible_gain(track, ratio);
+            const float sum = 1.0f + track->visible * gain;
+            if (look->row && look->scan && look->teaches && track->was_confirmed) {
+                const float miss = 1.0f - track->seen_share * rho_exp(look->log_pd);
+                rho_pd_count_place(look, track, (1.0f - blind) * track->visible,
+                                   rho_larger(1.0f - miss / ratio, 0.0f));
+            }
+            if (look->scan) { /* bearings alone do not tell one object from another */
+                count_seen_or_missed(tracker, look, track, ratio, blind);
+            }
+            /* a blind look spares a track for as long as it may coast; else it is rather gone */
+            const float spared =
+                track->misses_in_row > tracker->config.coast_scans_max ? 0.0f : blind;
+            track->visible *= spared + (1.0f - spared) * (1.0f + gain) / sum;
+            track->visible = rho_smaller(track->visible, 1.0f); /* despite rounding */
+            track->hidden *= spared + (1.0f - spared) / sum;
+            track->look_nat = 0.0f;
+            if (!look->scan) { /* of the next look of the frame */
+                track->seen_share = seeing_share(look, track);
+            }
+        }
+    }
+}
+
+void rho_life_apply(const struct step *step, struct rho_track *track, int32_t confirm_mnat)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const float exists = track->visible + track->hidden;
+    const int was_confirmed = track->was_confirmed;
+    rho_evidence_count(step, track);
+    if (was_confirmed ? exists < (rho_life_is_established(track) ? ENDED : ENDED_NEW)
+                      : track->score_mnat < rho_life_least_mnat(tracker)) {
+        tracker->gone += rho_life_is_established(track) ? 1.0f : 0.0f;
         rho_life_end(step, track);
-    } else if (track->was_confirmed != was_confirmed) {
-        step->tracker->counters.tracks_confirmed =
-            rho_count(step->tracker->counters.tracks_confirmed, 1);
+        return;
     }
+    const float least = track->status == RHO_TRACK_TENTATIVE ? SHOWN_AGAIN : SHOWN;
+    const int is_shown =
+        !rho_evidence_is_lacking(step, track) &&
+        (was_confirmed ? exists >= least
+                       : track->score_mnat >= confirm_mnat && track->misses_in_row == 0);
+    track->was_confirmed |= (uint8_t)is_shown;
+    tracker->counters.tracks_confirmed =
+        rho_count(tracker->counters.tracks_confirmed, is_shown && !was_confirmed ? 1 : 0);
+    track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status,
+                                                   is_shown ? RHO_TRACK_CONFIRM : RHO_TRACK_DOUBT);
+}
+
+void rho_life_doubt_places(struct rho_tracker *tracker, const struct rho_look *look)
+{
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        const float *p = track->kalman.covariance; /* usually it is as narrow as a plot */
+        if (rho_look_has_in_view(look, row) &&
+            p[RHO_AT(0, 0)] + p[RHO_AT(1, 1)] > 2.0f * look->sigma_max_m * look->sigma_max_m &&
+            rho_clutter_in_gate(look, track) > PLACE_CLUTTER_MAX) {
+            track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status,
+                                                           RHO_TRACK_DOUBT);
+        }
+    }
+}
+
+int rho_life_is_sound(const struct rho_track *track)
+{
+    return rho_is_within(track->visible, 0.0f, 1.0f) && rho_is_within(track->hidden, 0.0f, 1.0f) &&
+           rho_is_within(track->appeared, 0.0f, 1.0f) &&
+           rho_is_within(track->seen_share, 1e-30f, 1.0f) &&
+           rho_is_within(track->look_nat, -1e9f, 1e9f) &&
+           rho_is_within(track->seen_nat, 0.0f, 1e9f) && rho_is_within(track->missed, 0.0f, 1e9f) &&
+           rho_is_stored_time(track->lived_us);
 }

@@ -7,7 +7,7 @@
 
 #include "clutter.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
 #include "step.h"
 
 #define ALL_PLANES (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
@@ -31,7 +31,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .accel_max_mps2 = 30.0f,
         .learn_noise_min = 0.7f,
         .learn_noise_max = 4.0f,
-        .learn_pd_min = 0.5f,
+        .learn_pd_min = 0.1f,
         .coast_scans_max = 5,
         .work_max = RHO_WORK_MAX,
         .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
@@ -55,7 +55,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->learn_noise_max, 1.0f, 10.0f) &&
            rho_is_within(config->learn_pd_min, 0.1f, 1.0f) && config->coast_scans_max >= 1 &&
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
-           RHO_HAS_FILTER(rho_tracker_filter(config)) &&
+           config->standing < RHO_NUM_STANDING && RHO_HAS_FILTER(rho_tracker_filter(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            (config->gate != RHO_TRACKER_HOUGH || RHO_HAS_FILTER(RHO_TRACK_INPUT)) &&
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
@@ -80,7 +80,6 @@ static struct rho_imm_model motion_model(const struct rho_tracker_config *config
 static enum rho_status begin_tracking(struct rho_tracker *tracker)
 {
     tracker->next_track_id = 1;
-    tracker->looks_max = 1;
     tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
         const struct rho_imm_model model = motion_model(&tracker->config);
@@ -152,6 +151,9 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
         if (status != RHO_OK) {
             return status;
         }
+    }
+    if (RHO_MAX_ECHOES > 0 && config->standing > tracker->config.standing) {
+        memset(tracker->clutter_map.echoes, 0, sizeof tracker->clutter_map.echoes);
     }
     tracker->config = *config;
     if (RHO_MAX_ECHOES > 0) {

@@ -45,7 +45,8 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
            rho_tracker_is_score_in_range(track->score_mnat) &&
            rho_tracker_is_score_in_range(track->score_max_mnat) &&
            rho_is_stored_time(track->time_us) && rho_is_stored_time(track->updated_us) &&
-           rho_is_stored_time(track->seen_us) && rho_is_within(track->seen_every_s, 0.0f, 1e13f) &&
+           rho_life_is_sound(track) && rho_is_stored_time(track->seen_us) &&
+           rho_is_within(track->seen_every_s, 0.0f, 1e13f) &&
            rho_are_finite(track->kalman.state, RHO_KALMAN_STATES) &&
            rho_are_finite(track->kalman.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
            rho_are_finite(track->accel_mps2, 3) && rho_are_finite(track->newest_mps, 3) &&
@@ -74,7 +75,8 @@ static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
 {
     const struct rho_tracker_pace *pace = &row->pace;
     return (!is_described || rho_sensors_is_usable(&row->sensor)) &&
-           rho_learning_is_sound(&row->learned) &&
+           rho_is_within(row->looks, 0.0f, 1e9f) && rho_is_within(row->hits, 0.0f, row->looks) &&
+           rho_learning_is_sound(&row->learned) && rho_is_within(row->blind, 0.0f, 1.0f) &&
            rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
            rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
            rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&
@@ -103,10 +105,12 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
     return rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
            rho_is_stored_time(tracker->time_us) && rho_is_stored_time(tracker->counted_us) &&
            rho_tracker_is_score_in_range(tracker->start_mnat) &&
-           rho_tracker_is_score_in_range(tracker->confirm_mnat) && tracker->looks_max > 0 &&
+           rho_tracker_is_score_in_range(tracker->confirm_mnat) &&
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
            rho_is_within(tracker->clutter_per_m2, 0.0f, 1e30f) &&
            rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
+           rho_is_within(tracker->lived, 0.0f, 1e9f) && rho_is_within(tracker->gone, 0.0f, 1e9f) &&
+           rho_is_within(tracker->returned, 0.0f, 1e9f) &&
            rho_is_within(tracker->ended_early, 0.0f, 1e9f) &&
            rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&

@@ -6,10 +6,9 @@
  * radar is switched off, has no misses. It may coast for the time of coast_scans_max scans of the
  * sensors that saw it last:
  *
- *      hit   hit   leaves the coverage           the radar is silent, and back
- *       |-----|-----x. . . . . . . . x ends       |-----|-----x . . . . . |  claims a plot: goes on
- *             '-- coast_scans_max --'                                     |  missed: tentative
- *                                                                         |  third miss: ends
+ *      hit   hit   leaves the coverage
+ *       |-----|-----x. . . . . . . . x ends
+ *             '-- coast_scans_max --'
  *
  * Where a sensor covers its place and might still look there, the track may coast UNLOOKED times as
  * long. A sensor's scan interval is measured between scans that hold one fixed direction. Where the
@@ -56,49 +55,66 @@ void rho_pace_update(struct rho_tracker_pace *pace, const struct rho_sensor *sen
     }
 }
 
-struct expected_looks {
-    int is_awaited; /* a sensor covers the track's place, and may still look there */
-    /* longest scan interval of the sensors that cover the track or saw it last; 0: unknown */
-    float interval_s;
-    float scans_per_s; /* total scan rate of the sensors that saw the track last */
-};
-
-static struct expected_looks expected_looks_at(const struct rho_look *look,
-                                               const struct rho_track *track)
+/* True of a sensor that saw the track last. */
+static int is_last_sensor(const struct rho_track *track, int32_t sensor_id)
 {
-    const struct rho_tracker *tracker = look->tracker;
-    const float *state = track->kalman.state;
-    const float dt_s = rho_seconds_between(track->time_us, look->time_us);
-    const float x_m = state[0] + state[3] * dt_s, y_m = state[1] + state[4] * dt_s;
-    struct expected_looks wait = {0, track->seen_every_s, 0.0f};
-    for (unsigned i = 0; i < tracker->num_rows; i++) {
-        const struct rho_tracker_pace *pace = &tracker->sensors[i].pace;
-        const struct rho_sensor *known = &tracker->sensors[i].sensor;
-        if (!pace->is_heard) {
-            continue;
-        }
-        /* an undescribed sensor covers all; the site of bearings may be another than described */
-        const int is_seen =
-            i >= tracker->num_sensors ||
-            rho_measurement_covers(known, 0.0f, 0.0f, x_m + (known->x_m - pace->x_m),
-                                   y_m + (known->y_m - pace->y_m));
-        const int is_last = track->sensor_id == known->sensor_id ||
-                            (RHO_SECTORS && rho_turn_was_seen_by(track, known->sensor_id));
-        const float interval_s =
-            pace->interval_s > track->seen_every_s ? pace->interval_s : track->seen_every_s;
-        if ((is_seen || is_last) && interval_s > wait.interval_s) {
-            wait.interval_s = interval_s;
-        }
-        if (is_last && interval_s > 0.0f) {
-            wait.scans_per_s += 1.0f / interval_s;
-        }
-        wait.is_awaited |= is_seen;
-    }
-    return wait;
+    return track->sensor_id == sensor_id || (RHO_SECTORS && rho_turn_was_seen_by(track, sensor_id));
 }
 
-int rho_unseen_update(const struct rho_look *look, struct rho_track *track, int is_missed,
-                      const struct rho_track_limits *limits)
+/* True where a sensor covers the track's place at the look's time; one not described covers all. */
+static int covers_track(const struct rho_look *look, const struct rho_track *track, unsigned row)
+{
+    const struct rho_tracker_pace *pace = &look->tracker->sensors[row].pace;
+    const struct rho_sensor *known = &look->tracker->sensors[row].sensor;
+    const float *state = track->kalman.state;
+    const float dt_s = rho_seconds_between(track->time_us, look->time_us);
+    /* the site of bearings may be another than described */
+    return row >= look->tracker->num_sensors ||
+           rho_measurement_covers(known, 0.0f, 0.0f,
+                                  state[0] + state[3] * dt_s + (known->x_m - pace->x_m),
+                                  state[1] + state[4] * dt_s + (known->y_m - pace->y_m));
+}
+
+float rho_unseen_interval_s(const struct rho_look *look, const struct rho_track *track)
+{
+    float interval_s = track->seen_every_s;
+    for (unsigned row = 0; row < look->tracker->num_rows; row++) {
+        const struct rho_tracker_sensor *sensor = &look->tracker->sensors[row];
+        if (sensor->pace.is_heard && sensor->pace.interval_s > interval_s &&
+            (is_last_sensor(track, sensor->sensor.sensor_id) || covers_track(look, track, row))) {
+            interval_s = sensor->pace.interval_s;
+        }
+    }
+    return interval_s;
+}
+
+/* True where a sensor covers the track's place, and may still look there. */
+static int is_awaited(const struct rho_look *look, const struct rho_track *track)
+{
+    for (unsigned row = 0; row < look->tracker->num_rows; row++) {
+        if (look->tracker->sensors[row].pace.is_heard && covers_track(look, track, row)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Total scan rate of the sensors that saw the track last. */
+static float looks_per_s(const struct rho_look *look, const struct rho_track *track)
+{
+    float sum = 0.0f;
+    for (unsigned row = 0; row < look->tracker->num_rows; row++) {
+        const struct rho_tracker_sensor *sensor = &look->tracker->sensors[row];
+        const float interval_s = rho_larger(sensor->pace.interval_s, track->seen_every_s);
+        if (sensor->pace.is_heard && interval_s > 0.0f &&
+            is_last_sensor(track, sensor->sensor.sensor_id)) {
+            sum += 1.0f / interval_s;
+        }
+    }
+    return sum;
+}
+
+int rho_unseen_update(const struct rho_look *look, struct rho_track *track)
 {
     if (!look->teaches) {
         if (track->plot >= 0 && look->time_us > track->seen_us) {
@@ -106,18 +122,7 @@ int rho_unseen_update(const struct rho_look *look, struct rho_track *track, int 
         }
         return 0;
     }
-    const struct expected_looks wait = expected_looks_at(look, track);
-    const float coast = (float)look->tracker->config.coast_scans_max;
     const float unseen_s = rho_seconds_between(track->seen_us, look->time_us);
-    const int is_overdue =
-        wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
-    if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
-        (track->plot < 0 ? is_missed : rho_clutter_in_gate(look, track) > DOUBTFUL_PLOTS)) {
-        /* a target that was not observed for so long has probably gone: the track is tentative */
-        if (limits->doubt_mnat < limits->fall_mnat) { /* else this fall would end the track */
-            rho_track_lower_score(track, limits->doubt_mnat);
-        }
-    }
     if (track->plot >= 0) {
         track->seen_us = look->time_us;
         if (unseen_s > 0.0f) {
@@ -127,14 +132,14 @@ int rho_unseen_update(const struct rho_look *look, struct rho_track *track, int 
         }
         return 0;
     }
-    if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
-        return unseen_s * wait.scans_per_s >= coast - JITTER;
+    const float coast = (float)look->tracker->config.coast_scans_max;
+    const float per_s = looks_per_s(look, track);
+    if (per_s > 0.0f && !is_awaited(look, track)) {
+        return unseen_s * per_s >= coast - JITTER;
     }
-    /* time without a hit, less the scans that looked and missed */
-    const float silent_s = unseen_s - (float)track->misses_in_row * wait.interval_s;
-    const int is_back = silent_s >= (coast + OVERDUE) * wait.interval_s;
-    return is_overdue && ((is_back && track->misses_in_row >= OVERDUE_MISSES) ||
-                          unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
+    const float interval_s = rho_unseen_interval_s(look, track);
+    /* misses do not matter: a sensor that sees nothing there looks in vain */
+    return interval_s > 0.0f && unseen_s >= (UNLOOKED * coast + OVERDUE) * interval_s;
 }
 
 int rho_unseen_is_lost(const struct rho_tracker *tracker, const struct rho_track *track)

@@ -7,7 +7,6 @@
 
 #include <string.h>
 
-#include "../tracker/mirror_state.h"
 #include "../tracker/sensors.h"
 #include "../tracker/step.h"
 #include "policy.h"
@@ -45,8 +44,7 @@ static void place_on_line(const struct rho_learned_reflector *line, float along_
 /* Length that is added at each end of a line shorter than the shortest wall. */
 static float extension_of_short_line_m(const struct rho_learned_reflector *line)
 {
-    const float short_m = RHO_REFLECTOR_LEAST_M - (line->to_m - line->from_m);
-    return short_m > 0.0f ? short_m : 0.0f;
+    return rho_larger(RHO_REFLECTOR_LEAST_M - (line->to_m - line->from_m), 0.0f);
 }
 
 static struct rho_reflector wall_of_line(const struct rho_learned_reflector *line)

@@ -36,24 +36,26 @@ unsigned rho_window_bin_at(const struct rho_window_scan *scan, float x_m, float 
     return (unsigned)(row_at(scan, y_m) * scan->bins_x + column_at(scan, x_m));
 }
 
-struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m,
-                                             float x1_m, float y0_m, float y1_m)
+struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan,
+                                             const struct rho_extent *under)
 {
-    return (struct rho_window_bins){column_at(scan, x0_m), column_at(scan, x1_m),
-                                    row_at(scan, y0_m), row_at(scan, y1_m)};
+    return (struct rho_window_bins){column_at(scan, under->x_min_m),
+                                    column_at(scan, under->x_max_m), row_at(scan, under->y_min_m),
+                                    row_at(scan, under->y_max_m)};
 }
 
 /* Bins under a gate that moves with the plots' offsets from the scan's time. */
-static struct rho_window_bins bins_around_gate(const struct rho_window_scan *scan, float x_m,
-                                               float y_m, float vx_mps, float vy_mps,
-                                               float gate_radius_m)
+static struct rho_window_bins bins_around_gate(const struct rho_window_scan *scan,
+                                               const struct rho_window_place *place)
 {
     const float first_s = scan->offset_min_s, last_s = scan->offset_max_s;
-    return rho_window_bins_under(scan,
-                                 x_m - gate_radius_m + vx_mps * (vx_mps > 0.0f ? first_s : last_s),
-                                 x_m + gate_radius_m + vx_mps * (vx_mps > 0.0f ? last_s : first_s),
-                                 y_m - gate_radius_m + vy_mps * (vy_mps > 0.0f ? first_s : last_s),
-                                 y_m + gate_radius_m + vy_mps * (vy_mps > 0.0f ? last_s : first_s));
+    const float x_m = place->x_m, vx_mps = place->vx_mps, y_m = place->y_m, vy_mps = place->vy_mps;
+    const float radius_m = place->gate_radius_m;
+    const struct rho_extent around = {x_m - radius_m + vx_mps * (vx_mps > 0.0f ? first_s : last_s),
+                                      x_m + radius_m + vx_mps * (vx_mps > 0.0f ? last_s : first_s),
+                                      y_m - radius_m + vy_mps * (vy_mps > 0.0f ? first_s : last_s),
+                                      y_m + radius_m + vy_mps * (vy_mps > 0.0f ? last_s : first_s)};
+    return rho_window_bins_under(scan, &around);
 }
 
 static void count_lookup(struct rho_window_work *work, const struct rho_window_bins *bins,
@@ -66,15 +68,15 @@ static void count_lookup(struct rho_window_work *work, const struct rho_window_b
 }
 
 int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
-                                 const struct rho_window_query *query, struct rho_window_work *work)
+                                 const struct rho_window_place *place, float gate_chi2,
+                                 struct rho_window_work *work)
 {
-    struct rho_window_bins bins = bins_around_gate(scan, query->x_m, query->y_m, query->vx_mps,
-                                                   query->vy_mps, query->gate_radius_m);
+    const struct rho_window_bins bins = bins_around_gate(scan, place);
     /*
      * distance2 / variance is compared by cross-multiplication. The limit itself is the first
      * bound: a plot exactly on the gate counts as outside
      */
-    float best_m2 = query->gate_chi2, best_variance_m2 = 1.0f;
+    float best_m2 = gate_chi2, best_variance_m2 = 1.0f;
     int index = -1;
     unsigned compared = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -82,13 +84,13 @@ int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
         unsigned from = start[bins.column_first], to = start[bins.column_last + 1];
         for (unsigned i = from; i < to; i++) {
             const struct rho_window_plot *plot = &scan->plots[i];
-            float dx_m = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
-            float dy_m = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
+            float dx_m = plot->x_m - place->x_m - place->vx_mps * plot->offset_s;
+            float dy_m = plot->y_m - place->y_m - place->vy_mps * plot->offset_s;
             float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
             float sigma_m = rho_window_larger_sigma_m(plot);
-            float variance_m2 = query->variance_m2 + query->sigma_factor * sigma_m * sigma_m;
+            float variance_m2 = place->noise.xx_m2 + place->factor * sigma_m * sigma_m;
             if (distance2_m2 * best_variance_m2 < best_m2 * variance_m2 &&
-                !(scan->marks[i] & query->skip_flags)) {
+                !(scan->marks[i] & place->skip_flags)) {
                 index = (int)i;
                 best_m2 = distance2_m2;
                 best_variance_m2 = variance_m2;
@@ -237,8 +239,7 @@ static float nis_of_plot(const struct rho_window_scan *scan, const struct rho_wi
 int rho_window_nearest_plot(const struct rho_window_scan *scan,
                             const struct rho_window_place *place, struct rho_window_work *work)
 {
-    struct rho_window_bins bins = bins_around_gate(scan, place->x_m, place->y_m, place->vx_mps,
-                                                   place->vy_mps, place->gate_radius_m);
+    const struct rho_window_bins bins = bins_around_gate(scan, place);
     const int more = ((scan->measures & RHO_MEASURES_Z) && place->has_z ? 1 : 0) +
                      ((scan->measures & RHO_MEASURES_RANGE_RATE) ? 1 : 0);
     float best = more == 0 ? RHO_GATE_CHI2_2D : more == 1 ? RHO_GATE_CHI2_3D : RHO_GATE_CHI2_4D;

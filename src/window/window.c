@@ -9,7 +9,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 #include "sigma_code.h"
-#include "window_extent.h"
 
 #define WINDOW_MAGIC 0x57494e44u /* "WIND" */
 
@@ -166,7 +165,7 @@ int rho_window_continues_newest(const struct rho_window *window, const struct rh
 }
 
 enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned scans_max,
-                                const struct rho_extent *area, float side_min_m)
+                                const struct rho_extent *area)
 {
     if (!window) {
         return RHO_ERROR_NULL;
@@ -175,7 +174,6 @@ enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned
         return RHO_ERROR_SIZE;
     }
     if (scans_max < 1 || scans_max > RHO_MAX_SCANS ||
-        !rho_is_within(side_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) ||
         (area && (!rho_is_coordinate(area->x_min_m) || !rho_is_coordinate(area->x_max_m) ||
                   !rho_is_coordinate(area->y_min_m) || !rho_is_coordinate(area->y_max_m) ||
                   !(area->x_min_m < area->x_max_m) || !(area->y_min_m < area->y_max_m)))) {
@@ -185,7 +183,6 @@ enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned
     window->magic = WINDOW_MAGIC;
     window->scans_max = (uint16_t)scans_max;
     window->area_is_fixed = area ? 1 : 0;
-    window->side_min_m = side_min_m;
     window->extent = area ? *area : (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
     return RHO_OK;
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* window_extent: rectangles of the plane; the window's extent, which follows the held plots. */
-#include "window_extent.h"
-
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/window.h"
 
 float rho_extent_width_m(const struct rho_extent *extent, float side_min_m)
 {
@@ -17,8 +16,7 @@ float rho_extent_height_m(const struct rho_extent *extent, float side_min_m)
 
 float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m)
 {
-    return rho_larger(rho_extent_width_m(extent, side_min_m), 0.0f) *
-           rho_larger(rho_extent_height_m(extent, side_min_m), 0.0f);
+    return rho_extent_width_m(extent, side_min_m) * rho_extent_height_m(extent, side_min_m);
 }
 
 void rho_extent_add(struct rho_extent *extent, float x_m, float y_m)
@@ -67,7 +65,7 @@ static float moved_side_m(float was, float is, int is_wider)
     return is_wider ? is : was + EXTENT_DECAY * (is - was);
 }
 
-/* Updates the extent by the held plots without outliers, which would make clutter look thin. */
+/* Outliers are left out: they would make clutter look thin. */
 void rho_window_update_extent(struct rho_window *window)
 {
     struct plot_spread spread = {0}, before;

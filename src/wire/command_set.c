@@ -21,7 +21,7 @@ struct setting_field {
 
 static const struct setting_field *find_field(int number)
 {
-    static const struct setting_field fields[RHO_MESSAGE_SETTING_WORK_MAX + 1] = {
+    static const struct setting_field fields[RHO_MESSAGE_SETTING_STANDING + 1] = {
         [RHO_MESSAGE_SETTING_V_MIN_MPS] = FIELD(v_min_mps, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_V_MAX_MPS] = FIELD(v_max_mps, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_ACCEL_MAX_MPS2] = FIELD(accel_max_mps2, AS_FLOAT, STEP),
@@ -39,8 +39,9 @@ static const struct setting_field *find_field(int number)
         [RHO_MESSAGE_SETTING_COAST_SCANS_MAX] = FIELD(coast_scans_max, AS_UINT16, STEP),
         [RHO_MESSAGE_SETTING_FALSE_TRACKS_PER_HOUR] = FIELD(false_tracks_per_hour, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_WORK_MAX] = FIELD(work_max, AS_UINT32, STEP),
+        [RHO_MESSAGE_SETTING_STANDING] = FIELD(standing, AS_UINT16, STEP),
     };
-    return number > 0 && number <= RHO_MESSAGE_SETTING_WORK_MAX ? &fields[number] : 0;
+    return number > 0 && number <= RHO_MESSAGE_SETTING_STANDING ? &fields[number] : 0;
 }
 
 const char *rho_command_setting_name(int field)

@@ -332,7 +332,7 @@ static const struct message_run setting_runs[] = {
 };
 static const struct message_int_rule setting_ints[] = {
     {offsetof(struct rho_message_setting, utime), 8, 1, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_setting, field), 2, 1, MESSAGE_RANGE, 1, 17},
+    {offsetof(struct rho_message_setting, field), 2, 1, MESSAGE_RANGE, 1, 18},
 };
 static const struct message_float_rule setting_floats[] = {
     {offsetof(struct rho_message_setting, value), 1, -FLT_MAX, FLT_MAX},

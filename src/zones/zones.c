@@ -289,10 +289,8 @@ enum rho_status rho_zones_step(struct rho_zones *zones, const struct rho_report 
         }
         visitor->speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
         for (unsigned place = 0; place < zones->num_zones; place++) {
-            const struct rho_extent *bounds = &zones->bounds[place];
             if ((visitor->inside >> place & 1u) ||
-                (x_m >= bounds->x_min_m && x_m <= bounds->x_max_m && y_m >= bounds->y_min_m &&
-                 y_m <= bounds->y_max_m)) {
+                rho_extent_holds(&zones->bounds[place], x_m, y_m)) {
                 update_zone(zones, visitor, place, track, &occupants_of[place]);
             }
         }

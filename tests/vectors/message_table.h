@@ -178,7 +178,7 @@ static const struct message_member MESSAGE_TABLE(setting_answer)[] = {
 static const struct message_member MESSAGE_TABLE(setting)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(setting), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"number", offsetof(MESSAGE_STRUCT(setting), number), 0, 4, 1, .rule = MEMBER_ANY},
-    {"field", offsetof(MESSAGE_STRUCT(setting), field), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(17)},
+    {"field", offsetof(MESSAGE_STRUCT(setting), field), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(18)},
     {"value", offsetof(MESSAGE_STRUCT(setting), value), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
 };
 

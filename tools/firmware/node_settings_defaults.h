@@ -39,6 +39,10 @@
 #ifndef NODE_BODY_MAX_M
 #define NODE_BODY_MAX_M 0.0f
 #endif
+/* enum rho_tracker_standing: what never moved may be a target */
+#ifndef NODE_STANDING
+#define NODE_STANDING RHO_STANDING_CLUTTER
+#endif
 #ifndef NODE_GATE
 #define NODE_GATE (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST)
 #endif
@@ -60,6 +64,7 @@ static inline void node_settings(struct rho_settings *settings, struct rho_node_
     settings->v_max_mps = NODE_V_MAX_MPS;
     settings->accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
     settings->range_max_m = NODE_RANGE_MAX_M;
+    settings->standing = NODE_STANDING;
     settings->work_max = NODE_WORK_MAX;
     rho_node_config_default(config, settings);
     rho_scan_assembler_config_default(&config->assembler);

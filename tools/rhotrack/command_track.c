@@ -415,6 +415,9 @@ static void print_run_json(const struct tracking *tracking, const struct merged_
     cJSON_AddItemToObject(object, "counters", counters_json(&tracking->pipeline.node->tracker));
     cJSON_AddNumberToObject(object, "echoes_known",
                             count_known_echoes(&tracking->pipeline.node->tracker.clutter_map));
+    cJSON_AddNumberToObject(
+        object, "echoes_standing",
+        learned_report_num_standing(&tracking->pipeline.node->tracker.clutter_map));
     cJSON_AddItemToObject(object, "sensors", sensor_health_json(&tracking->pipeline.node->tracker));
     cJSON_AddItemToObject(object, "learned",
                           learned_report_sensors_json(&tracking->pipeline.node->tracker));

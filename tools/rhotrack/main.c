@@ -181,6 +181,7 @@ static const struct command commands[] = {
      "                             sigma_range_m sigma_azimuth_rad sigma_elevation_rad\n"
      "                             sigma_range_rate_mps sigma_rad range_min_m range_max_m scans\n"
      "                             min_scans coast_scans_max false_tracks_per_hour work_max\n"
+     "                             standing (0: clutter, 1: targets)\n"
      "\n"
      "Nothing proves who sent a command: sources_allowed of --lcm limits the addresses.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",

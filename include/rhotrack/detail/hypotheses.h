@@ -172,11 +172,18 @@ void rho_hypotheses_set_calm_s(struct rho_hypotheses *pool, float calm_s);
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: CAPACITY (all slots
  * taken, or the pool full, and no other track with a hypothesis to spare). Cost: RHO_MAX_TRACKS.
- * Stack: 150 bytes.
+ * Stack: 170 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool,
                                                    const struct rho_kalman *estimate,
                                                    int64_t time_us, uint16_t *slot);
+
+/*
+ * Adds a hypothesis with an estimate and a weight < 0, relative to the best one's, to an open slot.
+ * It takes the place of the lightest one of a full slot, and none in a full pool. Stack: 170 bytes.
+ */
+void rho_hypotheses_add(struct rho_hypotheses *pool, uint16_t slot,
+                        const struct rho_kalman *estimate, int64_t time_us, float weight_nat);
 
 /* Frees a slot and its hypotheses; does nothing for a slot that is not open. */
 void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot);

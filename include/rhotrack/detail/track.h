@@ -10,11 +10,9 @@
  * The track score is a sequential log-likelihood ratio, target against clutter: a plot adds ln(pd /
  * density) plus the log density of its innovation, a miss adds ln(1 - pd), but only where the
  * sensor looked. A tentative track is confirmed when the score reaches the confirm threshold and
- * dropped when it falls below Wald's lower one. A fall of the score from its highest value is
- * evidence that the target has gone. A confirmed track is in doubt, and tentative again, after a
- * fall by ln of a target's mean lifetime in scans; it is dropped after a fall by as much as
- * coast_scans_max misses, or after that many misses in a row (later where the target may be hidden:
- * tracker.h). Until then further plots confirm it again, with the same identity.
+ * dropped when it falls below Wald's lower one. From then on the probability that its target still
+ * exists decides (tracker.h): it is in doubt, and tentative again, where that is low, and dropped
+ * where there is hardly any left. Until then plots confirm it again, with the same identity.
  *
  * Stack: 64 bytes at most where nothing else is said.
  */
@@ -44,11 +42,11 @@ enum rho_track_status {
 
 enum rho_track_event {
     RHO_TRACK_START = 0, /* initiation found the track */
-    RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold, or recovered */
+    RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold, or the target surely exists */
     RHO_TRACK_UPDATE,    /* a plot was claimed */
     RHO_TRACK_MISS,      /* the sensor looked there, and no plot was claimed */
-    RHO_TRACK_DOUBT,     /* the score fell so far that the target has probably gone */
-    RHO_TRACK_DROP,      /* the score fell below the drop threshold, or too many misses in a row */
+    RHO_TRACK_DOUBT,     /* the target has probably gone, or its place is not known */
+    RHO_TRACK_DROP,      /* the target has surely gone, or was none */
     RHO_NUM_TRACK_EVENTS
 };
 
@@ -76,11 +74,20 @@ struct rho_track {
     int32_t sensor_id;     /* sensor of the last claimed plot */
     int32_t score_mnat;
     int32_t score_max_mnat; /* highest since the start */
-    int64_t time_us;        /* time of the estimate: of a scan, or of the last claimed plot */
-    int64_t updated_us;     /* time of the last claimed plot */
-    int64_t seen_us;        /* time of the last step in which it claimed a plot or bearing */
-    float seen_every_s;     /* smoothed time between such steps, long ones count less; 0: unknown */
-    uint8_t filter;         /* enum rho_track_filter */
+    /* probabilities that its target exists and is visible, or exists and is hidden, at lived_us */
+    float visible, hidden;
+    int64_t lived_us;
+    float look_nat;     /* of the looks since then: ln likelihood of a visible target over none */
+    float seen_nat;     /* ln evidence of its hits that it is seen as targets are, and not seldom */
+    float missed;       /* number of misses, hidden targets' less, that speak against it */
+    float seen_share;   /* of targets like it the next look can see: not hidden, not blind */
+    float appeared;     /* within a step: share of `visible` that was hidden before */
+    uint8_t is_seldom;  /* it was found to be seldom seen, and counted so */
+    int64_t time_us;    /* time of the estimate: of a scan, or of the last claimed plot */
+    int64_t updated_us; /* time of the last claimed plot */
+    int64_t seen_us;    /* time of the last step in which it claimed a plot or bearing */
+    float seen_every_s; /* smoothed time between such steps, long ones count less; 0: unknown */
+    uint8_t filter;     /* enum rho_track_filter */
     /* input estimation: bearings have come since the presence of inputs was last decided */
     uint8_t is_undecided;
     uint16_t slot; /* slot in the pool of hypotheses */
@@ -111,8 +118,10 @@ struct rho_track {
      * the clutter map; subtracted from the map once the track is known to be of a target
      */
     float returns[RHO_ECHO_HIT_CLASSES];
-    uint8_t has_taken_back; /* the returns were subtracted from the map */
-    uint8_t has_moved;      /* the track has surely left its start place */
+    unsigned has_taken_back : 1; /* the returns were subtracted from the map */
+    unsigned has_moved : 1;      /* the track has surely left its start place */
+    /* an operator started it: of a target, though it never moved; echoes there are no clutter */
+    unsigned is_operators : 1;
     /* within a step: share of looks that are blind to the track (doppler_notch.h), per cent */
     uint8_t blind_percent;
     uint8_t is_frozen; /* an operator has frozen the track: it coasts, and does not end */
@@ -125,15 +134,6 @@ struct rho_track {
     /* within a step: least probability that a younger track beside it is of its target; 1: none */
     float second_share;
     struct rho_input input;
-};
-
-/* Thresholds of a track's score and misses. */
-struct rho_track_limits {
-    int32_t confirm_mnat;   /* a track with this score or more is confirmed */
-    int32_t tentative_mnat; /* a track that was never confirmed is dropped below this score */
-    int32_t doubt_mnat;     /* fall from the highest score that makes a track tentative; 0: any */
-    int32_t fall_mnat;      /* fall that drops a track that was confirmed; > 0 */
-    uint8_t misses_in_row_max; /* misses in a row that drop a track */
 };
 
 /* Status that follows by the diagram; an event without an arrow changes nothing. Constant cost. */
@@ -167,7 +167,7 @@ struct rho_track_plot {
  * little out of order in time: a prediction back in time adds no noise.
  * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses), CONFIG
  * (the filter that the model asks for is none of RHO_FILTERS); *track is unchanged. Cost: num_plots
- * filter steps. Stack: 1.9 KB.
+ * filter steps. Stack: 2 KB.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
@@ -264,13 +264,6 @@ void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat);
 
 /* Counts a miss: subtracts loss_mnat >= 0 from the score; confirmed tracks coast. Constant cost. */
 void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat);
-
-/*
- * Confirms a track, makes it tentative or drops it, by the limits on its score and misses. Returns
- * its new status, RHO_TRACK_FREE where it was dropped. Constant cost.
- */
-enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
-                                                 const struct rho_track_limits *limits);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,7 @@
  * of the same sensor becomes part of it until the revolution is complete: N scans are N
  * revolutions. Sectors of several radars need a window each.
  *
- * Stack: 104 bytes at most where nothing else is said.
+ * Stack: 160 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_WINDOW_H
 #define RHOTRACK_WINDOW_H
@@ -29,6 +29,13 @@ extern "C" {
 struct rho_extent {
     float x_min_m, x_max_m, y_min_m, y_max_m;
 };
+
+/* True where a place is in a rectangle, sides included. */
+static inline int rho_extent_holds(const struct rho_extent *extent, float x_m, float y_m)
+{
+    return x_m >= extent->x_min_m && x_m <= extent->x_max_m && y_m >= extent->y_min_m &&
+           y_m <= extent->y_max_m;
+}
 
 /* One held plot of a window. */
 struct rho_window_plot {
@@ -104,43 +111,24 @@ struct rho_window {
     struct rho_window_scan ring[RHO_MAX_SCANS];
 };
 
-/*
- * A look-up of the plot nearest to a moving place, for plots with isotropic noise: in units of the
- * plot's own standard deviation, at the plot's own time. The noise of any plot is taken as
- * isotropic, with the larger of its sigmas.
- */
-struct rho_window_query {
-    float x_m, y_m;       /* the place at the scan's time */
-    float vx_mps, vy_mps; /* velocity, by which the place moves on with the plot's offset */
-    float variance_m2;    /* variance of the place on each axis */
-    float sigma_factor;   /* factor of the plots' sigma^2 */
-    /* limit, exclusive, of distance^2 / (variance_m2 + sigma_factor sigma^2) */
-    float gate_chi2;
-    float gate_radius_m; /* largest radius of the gate, before the plots' offsets */
-    uint16_t skip_flags; /* plots with any of these flags are skipped */
-};
-
 /* Covariance of a place in the plane, and the variance of its height. */
 struct rho_window_plot_noise {
     float xx_m2, xy_m2, yy_m2, zz_m2;
 };
 
-/*
- * A look-up of the plot nearest to a moving place, for plots with anisotropic noise: by the
- * covariance of each plot, and by its height and range rate where measured.
- */
+/* A moving place, to which the nearest plot is looked up, each plot at its own time. */
 struct rho_window_place {
-    float x_m, y_m, z_m;
-    float vx_mps, vy_mps, vz_mps;
+    float x_m, y_m, z_m;          /* at the scan's time */
+    float vx_mps, vy_mps, vz_mps; /* by which the place moves on with the plot's offset */
     float ax_mps2, ay_mps2; /* acceleration over the plot's offset; gate_radius_m allows for it */
     struct rho_window_plot_noise noise;          /* covariance of the place */
     struct rho_window_plot_noise velocity_noise; /* covariance of the velocity, (m/s)^2 */
     /* correction of the velocity by an alias of a range rate; applied to range rates alone */
     float more_mps[3];
-    float factor; /* factor of the plots' variances */
-    int has_z;    /* z_m and vz_mps are known */
-    float gate_radius_m;
-    uint16_t skip_flags;
+    float factor;        /* factor of the plots' variances */
+    int has_z;           /* z_m and vz_mps are known */
+    float gate_radius_m; /* largest radius of the gate, before the plots' offsets */
+    uint16_t skip_flags; /* plots with any of these flags are skipped */
 };
 
 /* Counters of the work of look-ups; they saturate. */
@@ -152,15 +140,16 @@ struct rho_window_work {
 
 /*
  * Prepares an empty window of scans_max scans (1 .. RHO_MAX_SCANS).
- *   size        sizeof(struct rho_window) of the caller
- *   area        the rectangle that is binned; NULL: the extent of recent plots without outliers
- *   side_min_m  >= 0: least width and height of the area (the travel of targets within the window)
- * Errors: NULL, SIZE, CONFIG (scans_max, an area that is empty or beyond RHO_LIMIT_POSITION_M,
- * side_min_m). Cost: sizeof(window) bytes cleared. Stack: 88 bytes.
+ *   size  sizeof(struct rho_window) of the caller
+ *   area  the rectangle that is binned; NULL: the extent of recent plots without outliers
+ * Errors: NULL, SIZE, CONFIG (scans_max, an area that is empty or beyond RHO_LIMIT_POSITION_M).
+ * Cost: sizeof(window) bytes cleared. Stack: 88 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t size,
-                                               unsigned scans_max, const struct rho_extent *area,
-                                               float side_min_m);
+                                               unsigned scans_max, const struct rho_extent *area);
+
+/* Updates the extent of a window without a given area by the plots held, after a push. */
+void rho_window_update_extent(struct rho_window *window);
 
 /* True where the window is initialised and holds no scan newer than time_us. Constant cost. */
 int rho_window_accepts(const struct rho_window *window, int64_t time_us);
@@ -201,11 +190,14 @@ RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
 struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m);
 
 /*
- * Index of the plot nearest to the query's place, or -1 where none is in the gate. Ties go to the
- * lower index. Cost: bins under the gate's square, and their plots. Stack: 112 bytes.
+ * Index of the plot nearest to a place of straight motion, or -1 where none is in the gate. The
+ * noise of any plot is taken as isotropic, with the larger of its sigmas, and that of the place as
+ * noise.xx_m2 on each axis; heights and range rates do not count. Ties go to the lower index.
+ *   gate_chi2  limit, exclusive, of distance^2 / (noise.xx_m2 + factor sigma^2)
+ * Cost: bins under the gate's square, and their plots. Stack: 120 bytes.
  */
 int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
-                                 const struct rho_window_query *query,
+                                 const struct rho_window_place *place, float gate_chi2,
                                  struct rho_window_work *work);
 
 /*
@@ -266,14 +258,14 @@ float rho_window_decode_sigma(uint16_t code);
 float rho_window_larger_sigma_m(const struct rho_window_plot *plot);
 
 /*
- * Bins whose columns and rows touch [x0, x1] x [y0, y1]; outside the area, its border bins. first
- * and last are both included. Constant cost.
+ * Bins whose columns and rows touch a rectangle; outside the area, its border bins. first and last
+ * are both included. Constant cost.
  */
 struct rho_window_bins {
     int column_first, column_last, row_first, row_last;
 };
-struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m,
-                                             float x1_m, float y0_m, float y1_m);
+struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan,
+                                             const struct rho_extent *under);
 
 /* Index of the bin at a place; outside the area a border bin. Constant cost. */
 unsigned rho_window_bin_at(const struct rho_window_scan *scan, float x_m, float y_m);

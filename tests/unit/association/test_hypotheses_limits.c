@@ -386,6 +386,26 @@ static void a_full_pool_is_shared_equally_among_tracks(void **state)
     assert_true(most <= least + 1);
 }
 
+/* An added hypothesis is listed by its weight; of a full slot it replaces the lightest. */
+static void an_added_hypothesis_is_listed_by_its_weight(void **state)
+{
+    struct rho_kalman estimate;
+
+    (void)state;
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 0.0f);
+    estimate = rho_hypotheses_at(&pool, slot, 0)->imm.steady;
+    for (int i = 0; i < RHO_HYPOTHESES_OF_TRACK + 1; ++i) {
+        estimate.state[0] = (float)i;
+        rho_hypotheses_add(&pool, slot, &estimate, 0, i % 2 ? -2.0f - (float)i : -1.0f);
+        assert_weights_fall_from_zero(&pool, slot);
+        assert_each_node_is_used_once(&pool);
+    }
+    assert_int_equal(rho_hypotheses_count(&pool, slot), RHO_HYPOTHESES_OF_TRACK);
+    assert_true(rho_hypotheses_at(&pool, slot, 1)->imm.steady.state[0] == 0.0f);
+    assert_true(rho_hypotheses_at(&pool, slot, 5)->imm.steady.state[0] == 8.0f);
+}
+
 /* A new track gets one node as long as another track has two. */
 static void a_new_track_in_a_full_pool_gets_a_node_of_another_track(void **state)
 {
@@ -851,6 +871,7 @@ int main(void)
         cmocka_unit_test(a_good_plot_of_another_track_leaves_the_miss_hypothesis),
         cmocka_unit_test(plots_in_a_gate_are_inside_the_bounding_box),
         cmocka_unit_test(a_full_pool_is_shared_equally_among_tracks),
+        cmocka_unit_test(an_added_hypothesis_is_listed_by_its_weight),
         cmocka_unit_test(a_new_track_in_a_full_pool_gets_a_node_of_another_track),
         cmocka_unit_test(random_calls_lose_no_node_and_a_copy_stays_identical),
         cmocka_unit_test(a_refused_update_becomes_a_miss_and_is_counted),

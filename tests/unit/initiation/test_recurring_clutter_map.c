@@ -4,6 +4,7 @@
  * plots; what the map learns, forgets and is taught.
  */
 #include "rhotrack/detail/recurring_clutter_map.h"
+#include "rhotrack/operator.h"
 #include "tracker_setup.h"
 
 /* With RHO_MAX_ECHOES 0 there is no clutter map. */
@@ -239,6 +240,41 @@ static void the_probability_of_a_return_is_learned_and_forgotten(void **state)
     assert_int_equal(count_known_towers(), TOWERS);
     (void)run_turns(&turn, 20, 0.0, 10);
     assert_int_equal(count_known_towers(), 0);
+    assert_int_equal(count_known_echoes(clutter_map()), 0);
+}
+
+/*
+ * A tower starts no track where what never moved is clutter; an operator's start there is followed
+ * until he drops it, and then the tower is clutter as before. With `targets` it is a track.
+ */
+static void an_operators_start_on_a_tower_is_a_track_until_it_is_dropped(void **state)
+{
+    const struct rho_operator_start start = {
+        .x_m = (float)tower_x_m(3), .y_m = (float)tower_y_m(3), .sigma_m = 300.0f};
+    int turn = 0;
+
+    (void)state;
+    start_tracker_with_radar(70, 0.0f);
+    (void)run_turns(&turn, 150, 0.8, 10);
+    assert_int_equal(run_turns(&turn, 20, 0.8, 10), 0);
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
+    const uint32_t track_id = report.tracks[report.num_tracks - 1].track_id;
+    for (int i = 0; i < 200; i++) {
+        (void)run_turns(&turn, 1, 0.8, 10);
+        const struct rho_track_report *track = report_of(track_id);
+        assert_non_null(track);
+        assert_true(i < 3 || hypot((double)(track->state[0] - start.x_m),
+                                   (double)(track->state[1] - start.y_m)) < 300.0);
+    }
+    assert_true(report_of(track_id)->hits > 140);
+    assert_int_equal(rho_tracker_drop_track(&tracker, track_id, &report), RHO_OK);
+    assert_int_equal(run_turns(&turn, 100, 0.8, 10), 0);
+
+    turn = 0;
+    start_tracker_with_radar(70, 0.0f);
+    tracker.config.standing = RHO_STANDING_TARGETS;
+    (void)run_turns(&turn, 30, 0.8, 10);
+    assert_in_range(run_turns(&turn, 100, 0.8, 10), 100 * TOWERS * 97 / 100, 100 * TOWERS);
     assert_int_equal(count_known_echoes(clutter_map()), 0);
 }
 
@@ -815,6 +851,7 @@ int main(void)
         cmocka_unit_test(places_of_known_towers_are_sharper_than_a_plot),
         cmocka_unit_test(a_target_that_passes_a_tower_keeps_its_plots),
         cmocka_unit_test(the_probability_of_a_return_is_learned_and_forgotten),
+        cmocka_unit_test(an_operators_start_on_a_tower_is_a_track_until_it_is_dropped),
         cmocka_unit_test(random_clutter_has_almost_no_return_probability),
         cmocka_unit_test(plots_of_a_tracked_target_teach_nothing),
         cmocka_unit_test(a_slow_target_has_moved_after_eight_standard_deviations),

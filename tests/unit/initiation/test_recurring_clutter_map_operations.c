@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
 
 #define PI 3.14159265358979323846
 #define V_MIN_MPS 20.0f

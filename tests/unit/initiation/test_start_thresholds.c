@@ -4,7 +4,7 @@
  * result. Noise of 10 m, scans of 2 s, targets of 100 to 400 m/s. The prior of a turn is tested
  * through a private header, as scores show it only in sums.
  */
-#include "../../src/initiation/start_thresholds.h"
+#include "../../src/initiation/search.h"
 #include "initiator_setup.h"
 #include "rhotrack/tracker.h"
 

@@ -219,6 +219,10 @@ static void test_counts_beyond_their_bounds_are_refused(void **state)
     assert_settings_refused("coast_scans_max", 256.0f, 1.0f, 255.0f);
     settings.coast_scans_max = 0;
     assert_settings_refused("coast_scans_max", 0.0f, 1.0f, 255.0f);
+    settings.coast_scans_max = 5;
+    settings.standing = 2;
+    assert_settings_refused("standing", 2.0f, 0.0f, 1.0f);
+    settings.standing = RHO_STANDING_TARGETS;
     settings.min_scans = RHO_MAX_SCANS + 1;
     assert_settings_refused("min_scans", RHO_MAX_SCANS + 1.0f, 3.0f, RHO_MAX_SCANS);
     settings.min_scans = 2;
@@ -348,6 +352,8 @@ static void test_each_preset_tracks_its_target(void **state)
 
         random_state = 1;
         rho_settings_preset(&settings, target->preset);
+        /* ships at berth, hovering drones and queues stand; aircraft do not */
+        assert_int_equal(settings.standing, target->preset > RHO_PRESET_APPROACH);
         assert_settings_accepted();
         mover =
             (struct mover){-0.6 * target->range_m, 0.8 * target->range_m, 0.0, target->speed_mps};

@@ -4,6 +4,7 @@
  * bearings' own times.
  */
 #include "bearing_frame_chain.h"
+#include "life_chain.h"
 
 #define MISS_NAT 2.302585 /* -ln(1 - pd) of the default */
 
@@ -90,26 +91,46 @@ static void step_frame_without_targets(unsigned k)
     fly_frame(k, 10.0);
 }
 
-static void five_frames_without_its_bearings_end_a_track(void **state)
+/*
+ * The sensors of a frame look one after the other: each miss leaves less of the visible targets,
+ * and takes less from the score.
+ */
+static void frames_without_its_bearings_end_a_track(void **state)
 {
     (void)state;
     track_random_target_for_twelve_frames(3);
+    tracker.config.learn_pd_min = 1.0f; /* the P_D is the stated one */
     const uint32_t track_id = report.tracks[0].track_id;
+    struct life_chain chain = {.visible = (double)tracker.tracks[0].visible,
+                               .hidden = (double)tracker.tracks[0].hidden};
     double score_nat = (double)report.tracks[0].score_nat;
-    for (unsigned k = 12; k < 16; k++) {
-        step_frame_without_targets(k);
-        assert_int_equal(report.num_tracks, 1);
-        assert_int_equal(report.tracks[0].status,
-                         k < 14 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
-        assert_int_equal(report.tracks[0].misses, k - 11);
-        assert_int_equal(report.tracks[0].hits, 12);
-        assert_int_equal(report.tracks[0].plot, -1);
-        assert_int_equal(report.tracks[0].update_age_us, 10000000 * (int)(k - 11));
-        score_nat -= 2.0 * MISS_NAT; /* a miss of each sensor */
-        assert_float_equal(report.tracks[0].score_nat, score_nat, 0.01);
+    unsigned misses = 0;
+    while (report.num_tracks > 0 && misses < 40) {
+        const enum rho_track_status before = report.tracks[0].status;
+        const struct rho_tracker_life rates = rho_tracker_life(&tracker);
+        step_frame_without_targets(12 + misses++);
+        chain_pass(&chain, 1.0, &rates, 0.0);
+        for (int sensor = 0; sensor < 2; sensor++) {
+            const double seen = chain.visible / chain_exists(&chain);
+            double blind = 0.0;
+            chain.share = seen < 0.95 ? seen : 1.0;
+            const double gain_nat = log(1.0 - 0.9 * chain.share);
+            chain_weigh(&chain, &gain_nat, 1, &blind, misses < 5);
+            score_nat += gain_nat;
+        }
+        assert_int_equal(report.num_tracks > 0 ? report.tracks[0].status : RHO_TRACK_FREE,
+                         chain_status(&chain, before, 1));
+        if (report.num_tracks > 0) {
+            assert_float_equal(tracker.tracks[0].visible, chain.visible, 1e-3);
+            assert_float_equal(tracker.tracks[0].hidden, chain.hidden, 1e-3);
+            assert_int_equal(report.tracks[0].misses, misses);
+            assert_int_equal(report.tracks[0].hits, 12);
+            assert_int_equal(report.tracks[0].plot, -1);
+            assert_int_equal(report.tracks[0].update_age_us, 10000000 * (int)misses);
+            assert_float_equal(report.tracks[0].score_nat, score_nat, 0.02);
+        }
     }
-    step_frame_without_targets(16);
-    assert_int_equal(report.num_tracks, 0);
+    print_message("ended after %u frames\n", misses);
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], track_id);
     assert_int_equal(tracker.counters.tracks_ended, 1);
@@ -129,7 +150,8 @@ static void a_bearing_restarts_the_misses_in_a_row_of_a_track(void **state)
     assert_int_equal(report.tracks[0].hits, 13);
     assert_int_equal(report.tracks[0].misses, 4);
     step_frame_without_targets(17);
-    assert_int_equal(report.num_tracks, 1); /* four misses in a row, not yet five */
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].status, RHO_TRACK_COASTING);
     assert_int_equal(report.tracks[0].misses, 5);
 }
 
@@ -140,6 +162,7 @@ static void a_miss_of_one_sensor_lowers_the_score_only(void **state)
     static struct rho_tracker tracker_then;
     static struct rho_passive passive_then;
     track_random_target_for_twelve_frames(3);
+    tracker.config.learn_pd_min = 1.0f; /* the P_D is the stated one */
     see_frame(12, 120.0);
     tracker_then = tracker;
     passive_then = passive;
@@ -319,6 +342,93 @@ static void undescribed_sensors_have_the_range_of_the_initiation(void **state)
     miss_frames_and_expect(12, 12, 1);
 }
 
+/* ---- bearings that are mixed ----------------------------------------------------------------- */
+
+/* Probabilistic data association of these bearings of sensor 0; returns ln of the weights' sum. */
+static double ekf_mix(struct ekf *ekf, const struct rho_bearing *bearings, int count, double pd,
+                      double false_per_rad)
+{
+    const double x_m = ekf->x[0] - scene.sensor_x_m[0], y_m = ekf->x[1] - scene.sensor_y_m[0];
+    const double range2 = x_m * x_m + y_m * y_m, row[2] = {-y_m / range2, x_m / range2};
+    const double noise = pow((double)bearings[0].sigma_rad, 2.0);
+    double ph[4], variance = noise, sum = 1.0 - pd, mean = 0.0, square = 0.0;
+    for (int i = 0; i < 4; i++) {
+        ph[i] = ekf->p[i][0] * row[0] + ekf->p[i][1] * row[1];
+    }
+    variance += row[0] * ph[0] + row[1] * ph[1];
+    for (int i = 0; i < count; i++) {
+        const double off = remainder((double)bearings[i].bearing_rad - atan2(y_m, x_m), 2.0 * PI);
+        const double weight =
+            pd * exp(-0.5 * off * off / variance) / sqrt(2.0 * PI * variance) / false_per_rad;
+        sum += weight;
+        mean += weight * off;
+        square += weight * off * off;
+    }
+    const double hit = 1.0 - (1.0 - pd) / sum;
+    mean /= sum;
+    square /= sum;
+    for (int i = 0; i < 4; i++) {
+        ekf->x[i] += ph[i] / variance * mean;
+        for (int j = 0; j < 4; j++) {
+            ekf->p[i][j] += ph[i] * ph[j] / variance * ((square - mean * mean) / variance - hit);
+        }
+    }
+    return log(sum);
+}
+
+/*
+ * Two bearings in the gate, and the case that both are false: the estimate takes the mean of all
+ * three, and the covariance is wider by how far they are apart.
+ */
+static void mixed_bearings_update_as_pda_does(void **state)
+{
+    static const int at[4] = {0, 1, 3, 4};
+    static const double off_sigmas[3][2] = {{0.4, -1.6}, {1.6, 1.2}, {-0.2, 2.1}};
+    (void)state;
+    gate_of_tracks = RHO_TRACKER_NEAREST; /* its filter is the EKF's */
+    for (int i = 0; i < 3; i++) {
+        static struct rho_bearing bearings[2];
+        track_random_target_for_twelve_frames(3);
+        tracker.config.learn_pd_min = 1.0f;
+        tracker.unclaimed_bearings = 500.0f; /* over the field of view */
+        struct ekf ekf = ekf_from_track(&report.tracks[0]);
+        const double score_nat = (double)report.tracks[0].score_nat;
+        ekf_predict(&ekf, 10.0, 6.25);
+        see_frame(12, 120.0);
+        const double x_m = ekf.x[0] - scene.sensor_x_m[0], y_m = ekf.x[1] - scene.sensor_y_m[0];
+        for (int k = 0; k < 2; k++) {
+            bearings[k] = (struct rho_bearing){
+                .bearing_rad = (float)(atan2(y_m, x_m) + 0.004 * off_sigmas[i][k]),
+                .sigma_rad = 0.004f};
+        }
+        full.frame.num_scans = 1;
+        full.scans[0].num_bearings = 2;
+        full.scans[0].bearings = bearings;
+        step_frame(&full.frame);
+        const struct ekf before = ekf;
+        const double view_rad = (double)passive.config.field_of_view_rad;
+        const double gain_nat = ekf_mix(&ekf, bearings, 2, 0.9, 500.0 / view_rad);
+        assert_int_equal(report.num_tracks, 1);
+        assert_float_equal(report.tracks[0].score_nat - score_nat, gain_nat, 0.01);
+        for (int row = 0; row < 4; row++) {
+            const double sigma = sqrt(before.p[row][row]);
+            assert_float_equal(report.tracks[0].state[at[row]], ekf.x[row], 0.01 * sigma);
+            for (int column = 0; column <= row; column++) {
+                assert_float_equal(report.tracks[0].covariance[RHO_AT(at[row], at[column])],
+                                   ekf.p[row][column],
+                                   0.01 * sigma * sqrt(before.p[column][column]));
+            }
+        }
+        /* the update is no small one beside these bounds */
+        assert_true(fabs(ekf.x[1] - before.x[1]) > 0.05 * sqrt(before.p[1][1]));
+        assert_true(fabs(ekf.p[1][1] / before.p[1][1] - 1.0) > 0.05);
+        print_message("moved by %.3f sigmas, variance %.3f\n",
+                      (ekf.x[1] - before.x[1]) / sqrt(before.p[1][1]),
+                      ekf.p[1][1] / before.p[1][1]);
+    }
+    gate_of_tracks = RHO_TRACKER_BEST;
+}
+
 /* ---- bearings' own times --------------------------------------------------------------------- */
 
 /* The bearing of the target from the scan's sensor at the scan's time + offset_s. */
@@ -450,7 +560,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(targets_that_cross_at_one_sensor_keep_their_identities),
-        cmocka_unit_test(five_frames_without_its_bearings_end_a_track),
+        cmocka_unit_test(frames_without_its_bearings_end_a_track),
         cmocka_unit_test(a_bearing_restarts_the_misses_in_a_row_of_a_track),
         cmocka_unit_test(a_miss_of_one_sensor_lowers_the_score_only),
         cmocka_unit_test(sensors_missing_from_frames_do_no_harm),
@@ -458,6 +568,7 @@ int main(void)
         cmocka_unit_test(no_miss_is_counted_where_no_sensor_looked),
         cmocka_unit_test(misses_count_within_a_sensors_coverage_only),
         cmocka_unit_test(undescribed_sensors_have_the_range_of_the_initiation),
+        cmocka_unit_test(mixed_bearings_update_as_pda_does),
         cmocka_unit_test(bearings_update_at_their_own_times),
         cmocka_unit_test(the_start_threshold_follows_the_false_track_rate),
     };

@@ -41,9 +41,16 @@ static void a_track_started_by_hand_ends_without_plots(void **state)
     prepare_tracker();
     assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
     assert_true(only_track_within_200_m(6000.0)->sigma_mps > 100.0f);
-    run_scans(config.coast_scans_max - 1, 1);
-    assert_non_null(only_track_within_200_m(6000.0));
+    assert_int_equal(only_track_within_200_m(6000.0)->status, RHO_TRACK_CONFIRMED);
     run_scans(1, 1);
+    assert_non_null(only_track_within_200_m(6000.0));
+    int scans = 1, shown = 0;
+    for (; only_track_within_200_m(6000.0) && scans < 30; scans++) {
+        shown += only_track_within_200_m(6000.0)->status != RHO_TRACK_TENTATIVE;
+        run_scans(1, 1);
+    }
+    assert_in_range(scans, 2, 10);
+    assert_in_range(shown, 0, 2); /* nothing tells that its target was ever there */
     assert_null(only_track_within_200_m(6000.0));
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], 3);
@@ -259,6 +266,48 @@ static void a_frozen_track_takes_no_plots(void **state)
     assert_null(report_of(frozen));
 }
 
+/* Probability that the target of this track exists. */
+static double existence_of(uint32_t track_id)
+{
+    for (unsigned i = 0; i < tracker.num_tracks; i++) {
+        if (tracker.tracks[i].track_id == track_id) {
+            return (double)(tracker.tracks[i].visible + tracker.tracks[i].hidden);
+        }
+    }
+    return 0.0;
+}
+
+/*
+ * No target leaves while its track is frozen: a thawed track lives on as one that never was. Of
+ * targets that were watched for 60 scans instead, a quarter would have left.
+ */
+static void the_time_in_which_a_track_is_frozen_does_not_count(void **state)
+{
+    double exists[2][4];
+    (void)state;
+    for (int is_frozen = 0; is_frozen < 2; is_frozen++) {
+        prepare_tracker();
+        tracker.config.learn_pd_min = 1.0f; /* what the other track teaches does not count */
+        const uint32_t id = only_track_within_200_m(2000.0)->track_id;
+        if (is_frozen) {
+            assert_int_equal(rho_tracker_freeze_track(&tracker, id, 1, &report), RHO_OK);
+            const double before = existence_of(id);
+            run_scans(60, 0);
+            assert_float_equal(existence_of(id), before, 0.0);
+            assert_int_equal(rho_tracker_freeze_track(&tracker, id, 0, &report), RHO_OK);
+        }
+        for (int i = 0; i < 4; i++) {
+            run_scans(1, 0);
+            assert_non_null(report_of(id));
+            exists[is_frozen][i] = existence_of(id);
+        }
+    }
+    for (int i = 0; i < 4; i++) {
+        assert_float_equal(exists[1][i], exists[0][i], 0.05);
+    }
+    assert_true(exists[1][0] > 0.9);
+}
+
 static void refused_freezes_change_nothing(void **state)
 {
     (void)state;
@@ -274,6 +323,33 @@ static void refused_freezes_change_nothing(void **state)
     check_unchanged();
     tracker.tracks[0].is_frozen = 2;
     assert_false(rho_tracker_is_sound(&tracker));
+}
+
+/* A tracker read from a snapshot whose probabilities are none. */
+static void probabilities_outside_0_to_1_are_unsound(void **state)
+{
+    static const float bad[] = {-0.001f, 1.001f, NAN, INFINITY};
+    (void)state;
+    prepare_tracker();
+    assert_true(rho_tracker_is_sound(&tracker));
+    remember_state();
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        float *const values[] = {&tracker.tracks[1].visible, &tracker.tracks[1].hidden,
+                                 &tracker.tracks[1].seen_share, &tracker.tracks[1].appeared,
+                                 &tracker.sensors[0].blind};
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+            *values[k] = bad[i];
+            assert_false(rho_tracker_is_sound(&tracker));
+            tracker = tracker_before;
+        }
+    }
+    float *const counts[] = {&tracker.lived, &tracker.gone, &tracker.returned};
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        *counts[k] = -1.0f;
+        assert_false(rho_tracker_is_sound(&tracker));
+        tracker = tracker_before;
+    }
+    assert_true(rho_tracker_is_sound(&tracker));
 }
 
 /* ---- frozen tracks in frames of bearings ----------------------------------------------------- */
@@ -361,7 +437,9 @@ int main(void)
         cmocka_unit_test(evidence_is_kept_for_tracks_that_keep_their_row),
         cmocka_unit_test(a_frozen_track_coasts_until_it_is_thawed),
         cmocka_unit_test(a_frozen_track_takes_no_plots),
+        cmocka_unit_test(the_time_in_which_a_track_is_frozen_does_not_count),
         cmocka_unit_test(refused_freezes_change_nothing),
+        cmocka_unit_test(probabilities_outside_0_to_1_are_unsound),
         cmocka_unit_test(frames_of_bearings_leave_frozen_tracks_alone),
         cmocka_unit_test(random_commands_keep_the_tracker_sound),
     };

@@ -42,10 +42,6 @@ static void tracks_a_tenth_faster_than_v_max_end(void **state)
 /* The limit is three sigmas of 1 m/s below 30 m/s. */
 static void tracks_surely_slower_than_v_min_end(void **state)
 {
-    const struct rho_track_limits limits = {.tentative_mnat = -100000,
-                                            .fall_mnat = 100000,
-                                            .doubt_mnat = 90000,
-                                            .misses_in_row_max = 9};
     (void)state;
     for (int i = 0; i < 2; i++) {
         use_usual_configs(1);
@@ -63,14 +59,15 @@ static void tracks_surely_slower_than_v_min_end(void **state)
                                     .status = RHO_TRACK_CONFIRMED,
                                     .hits = 20,
                                     .plot = -1,
-                                    .was_confirmed = 1};
+                                    .was_confirmed = 1,
+                                    .visible = 1.0f};
         tracker.num_tracks = 1;
         track->kalman.state[RHO_VX] = i ? 27.1f : 26.9f;
         for (int axis = 0; axis < 2; axis++) {
             track->kalman.covariance[RHO_AT(axis, axis)] = 100.0f;
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
-        rho_removal_of_track(&at, track, 0, &limits);
+        rho_removal_of_track(&at, track);
         assert_int_equal(track->status, i ? RHO_TRACK_CONFIRMED : RHO_TRACK_FREE);
     }
 }

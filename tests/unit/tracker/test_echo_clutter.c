@@ -278,6 +278,55 @@ static void tracks_of_12_hits_that_moved_are_known_moving_targets(void **state)
     assert_true(do_twelve_hits_make_a_target(12, 0.0f, 81.0f));
 }
 
+/* ---- what never moved ------------------------------------------------------------------------ */
+
+/* With `targets` no plot becomes an echo where targets may stand; a taught echo stays. */
+static void what_never_moved_is_no_echo_where_it_may_be_a_target(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        start_tracker(0);
+        (void)make_known_echo();
+        tracker.config.standing = i % 2 ? RHO_STANDING_TARGETS : RHO_STANDING_CLUTTER;
+        clutter_map()->v_min_mps = i / 2 ? 10.0f : 0.0f;
+        (void)add_plot(0.0, 20000.0, 10.0);
+        begin_step_with_plots();
+        rho_echoes_update(&tracker, &at.look);
+        assert_int_equal(clutter_map()->echoes[1].hits, i == 1 ? 0 : 1);
+        assert_int_equal(clutter_map()->echoes[0].hits, 20);
+    }
+}
+
+/* Where an operator's track is, echoes are no clutter: 18 variances of both places. */
+static void an_operators_track_takes_the_echo_out_of_the_clutter(void **state)
+{
+    const double reach_m = sqrt(18.0 * (25.0 + 400.0 + 1.0));
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        struct rho_track *track = &tracker.tracks[0];
+        start_tracker(0);
+        struct rho_echo *echo = make_known_echo();
+        (void)add_plot(20000.0, 0.0, 10.0);
+        clutter_map()->v_min_mps = 0.0f;
+        echo->along[0] = 400.0f;
+        echo->across[0] = 1.0f;
+        tracker.num_tracks = 1;
+        *track = (struct rho_track){.track_id = 1, .status = RHO_TRACK_CONFIRMED, .plot = 0};
+        track->is_operators = i > 0;
+        track->kalman.state[RHO_X] = 20000.0f;
+        track->kalman.state[RHO_Y] = (float)(i > 1 ? reach_m + 1.0 : reach_m - 1.0);
+        for (int axis = 0; axis < 2; axis++) {
+            track->kalman.covariance[RHO_AT(axis, axis)] = 25.0f;
+        }
+        begin_step_with_plots();
+        assert_int_equal(clutter_map()->denser[0] > 0.0f, i != 1);
+        rho_echoes_update(&tracker, &at.look);
+        /* and its plots become none, so that the echo is as it was when the track is dropped */
+        assert_int_equal(clutter_map()->echoes[1].hits, 0);
+        assert_int_equal(echo->hits, i == 0 ? 21 : 20);
+    }
+}
+
 /* ---- strobes: jammed directions -------------------------------------------------------------- */
 
 /* Plots in one direction, in the eighths of the range from `first` on, and `others` all round. */
@@ -336,6 +385,8 @@ int main(void)
         cmocka_unit_test(an_echo_takes_a_plot_of_weight_above_0_3),
         cmocka_unit_test(range_rate_sums_of_the_clutter_map_are_halved_at_1000),
         cmocka_unit_test(sensors_silent_for_a_minute_do_not_count),
+        cmocka_unit_test(what_never_moved_is_no_echo_where_it_may_be_a_target),
+        cmocka_unit_test(an_operators_track_takes_the_echo_out_of_the_clutter),
         cmocka_unit_test(tracks_of_12_hits_that_moved_are_known_moving_targets),
         cmocka_unit_test(a_strobe_has_more_than_eight_plots),
         cmocka_unit_test(a_strobe_has_six_times_the_plots_of_other_directions),

@@ -417,7 +417,7 @@ static void late_scans_improve_tracks_nearly_as_much_as_timely_ones(void **state
                       rmse_m(&in_time), rmse_m(&taken), rmse_m(&dropped));
         assert_true(taken.lost <= in_time.lost);
         /* until it comes, a scan two scans late is missing in two reports */
-        assert_true(rmse_m(&taken) < (behind == 1 ? 1.05 : 1.08) * rmse_m(&in_time));
+        assert_true(rmse_m(&taken) < (behind == 1 ? 1.05 : 1.1) * rmse_m(&in_time));
         assert_true(rmse_m(&taken) < 1.01 * rmse_m(&dropped));
     }
 }

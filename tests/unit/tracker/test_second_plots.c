@@ -177,6 +177,8 @@ static void start_with_tracks(unsigned num_tracks)
                                                  .hits = 8,
                                                  .plot = -1,
                                                  .was_confirmed = 1,
+                                                 .visible = 1.0f,
+                                                 .seen_share = 1.0f,
                                                  .older_id = row};
         tracker.tracks[row].kalman.state[RHO_X] = 20000.0f;
     }

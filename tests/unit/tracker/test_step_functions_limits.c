@@ -52,6 +52,8 @@ static struct rho_track *make_track(double azimuth_rad, double sigma_m)
                                 .hits = 8,
                                 .plot = -1,
                                 .was_confirmed = 1,
+                                .visible = 1.0f,
+                                .seen_share = 1.0f,
                                 .time_us = at.look.time_us};
     track->kalman.state[RHO_X] = (float)(20000.0 * cos(azimuth_rad));
     track->kalman.state[RHO_Y] = (float)(20000.0 * sin(azimuth_rad));
@@ -263,37 +265,136 @@ static void clutter_density_has_a_least_area_and_value(void **state)
 
 /* ---- how tracks end -------------------------------------------------------------------------- */
 
-/* A tentative track ends when it is true with a probability below one in a hundred. */
+/* Status of a track with this existence, of which the given part is hidden. */
+static int status_by_existence(enum rho_track_status before, double exists, double hidden_part)
+{
+    start_step();
+    struct rho_track *track = make_track(0.0, 10.0);
+    track->status = (uint8_t)before;
+    track->hits = RHO_ESTABLISHED_HITS;
+    track->hidden = (float)(exists * hidden_part);
+    track->visible = (float)exists - track->hidden;
+    rho_life_apply(&at, track, 0);
+    return track->status;
+}
+
+/* Confirmed from the confirm threshold on; ended when one in a hundred is true. */
 static void tentative_tracks_end_when_one_in_a_hundred_is_true(void **state)
 {
+    const int least_mnat = (int)ceil(2000.0 - 1000.0 * log(100.0));
+    const int scores_mnat[4] = {least_mnat - 1, least_mnat + 1, 4999, 5001};
     (void)state;
-    start_step();
-    tracker.start_mnat = 2000;
-    tracker.looks_max = 1;
-    const struct rho_track_limits limits = rho_life_limits(&at.look);
-    assert_float_equal(limits.tentative_mnat, 2000.0 - 1000.0 * log(100.0), 1.0);
-    assert_float_equal(limits.doubt_mnat, 1000.0 * log(200.0), 1.0);
-    assert_float_equal(limits.fall_mnat, 5.0 * 2302.6, 2.0);
+    for (int i = 0; i < 4; i++) {
+        start_step();
+        tracker.start_mnat = 2000;
+        struct rho_track *track = make_track(0.0, 10.0);
+        track->status = RHO_TRACK_TENTATIVE;
+        track->was_confirmed = 0;
+        track->score_mnat = scores_mnat[i];
+        rho_life_apply(&at, track, 5000);
+        assert_int_equal(track->status, i == 0   ? RHO_TRACK_FREE
+                                        : i == 3 ? RHO_TRACK_CONFIRMED
+                                                 : RHO_TRACK_TENTATIVE);
+        assert_int_equal(report.num_ended, 0);
+        assert_int_equal(tracker.counters.tracks_confirmed, i == 3);
+    }
+}
+
+/* No miss confirms a track for the first time, even where the threshold has fallen below it. */
+static void a_missed_track_is_not_confirmed_for_the_first_time(void **state)
+{
+    (void)state;
+    for (int misses = 0; misses < 2; misses++) {
+        start_step();
+        struct rho_track *track = make_track(0.0, 10.0);
+        track->status = RHO_TRACK_TENTATIVE;
+        track->was_confirmed = 0;
+        track->score_mnat = 9000;
+        track->misses_in_row = (uint8_t)misses;
+        rho_life_apply(&at, track, 5000);
+        assert_int_equal(track->status, misses ? RHO_TRACK_TENTATIVE : RHO_TRACK_CONFIRMED);
+    }
+}
+
+/* Shown from 0.48 on, shown again from 0.8 on, and ended below 0.05. */
+static void existence_decides_what_is_shown_and_ends(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const double hidden = 0.5 * i;
+        assert_int_equal(status_by_existence(RHO_TRACK_CONFIRMED, 0.49, hidden),
+                         RHO_TRACK_CONFIRMED);
+        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.49, hidden), RHO_TRACK_COASTING);
+        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.47, hidden),
+                         RHO_TRACK_TENTATIVE);
+        assert_int_equal(status_by_existence(RHO_TRACK_TENTATIVE, 0.79, hidden),
+                         RHO_TRACK_TENTATIVE);
+        assert_int_equal(status_by_existence(RHO_TRACK_TENTATIVE, 0.81, hidden),
+                         RHO_TRACK_CONFIRMED);
+        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.051, hidden),
+                         RHO_TRACK_TENTATIVE);
+        assert_int_equal(report.num_ended, 0);
+        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.049, hidden), RHO_TRACK_FREE);
+        assert_int_equal(report.num_ended, 1);
+    }
 }
 
 /*
- * A missed track that has moved stays, as tentative, with up to three clutter plots in its gate.
+ * No place is shown that clutter would fill: more than one plot of it is expected in the gate of
+ * three sigmas. An estimate no wider than the scan's widest plot is known.
  */
-static void in_little_clutter_missed_tracks_become_tentative_not_ended(void **state)
+static void places_that_clutter_would_fill_are_not_shown(void **state)
 {
-    const double sigma_m = sqrt(3.0 / (3.14159265 * 9.0 * 1e-8));
+    const double sigma_m = sqrt(1.0 / (3.14159265 * 9.0 * 1e-8));
     (void)state;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 5; i++) {
+        const double plot_sigma_m = sigma_m * (i == 2 ? 1.02 : i == 3 ? 1.0 : 0.1);
         start_step();
-        struct rho_track *track = make_track(0.0, sigma_m * (i ? 1.01 : 0.99));
-        tracker.looks_max = 1;
-        track->hits = 20;
-        track->has_taken_back = 1;
-        track->misses_in_row = 5;
-        const struct rho_track_limits limits = rho_life_limits(&at.look);
-        rho_life_apply(&at, track, &limits);
-        assert_int_equal(track->status, i ? RHO_TRACK_FREE : RHO_TRACK_TENTATIVE);
+        struct rho_track *track = make_track(0.0, sigma_m * (i == 0 ? 0.99 : 1.01));
+        (void)add_plot(20000.0, 0.0, plot_sigma_m);
+        scan.num_plots = 1;
+        at.look.sigma_max_m = (float)plot_sigma_m;
+        at.look.in_view[0] = i == 4 ? 0u : 3u; /* a track that is not looked at is left alone */
+        rho_life_doubt_places(&tracker, &at.look);
+        assert_int_equal(track->status,
+                         i == 1 || i == 3 ? RHO_TRACK_TENTATIVE : RHO_TRACK_CONFIRMED);
     }
+}
+
+/* ---- soundness of a track's life ------------------------------------------------------------- */
+
+static struct rho_track *make_living_track(void)
+{
+    start_step();
+    struct rho_track *track = make_track(0.0, 10.0);
+    track->visible = 0.9f;
+    track->hidden = 0.05f;
+    return track;
+}
+
+static void probabilities_outside_0_to_1_are_unsound(void **state)
+{
+    static const float bad[] = {-1e-6f, 1.00001f, NAN, INFINITY, -INFINITY};
+    (void)state;
+    assert_true(rho_life_is_sound(make_living_track()));
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        make_living_track()->visible = bad[i];
+        assert_false(rho_life_is_sound(tracker.tracks));
+        make_living_track()->hidden = bad[i];
+        assert_false(rho_life_is_sound(tracker.tracks));
+        make_living_track()->appeared = bad[i];
+        assert_false(rho_life_is_sound(tracker.tracks));
+        make_living_track()->seen_share = bad[i];
+        assert_false(rho_life_is_sound(tracker.tracks));
+    }
+    make_living_track()->seen_share = 0.0f; /* evidence is divided by it */
+    assert_false(rho_life_is_sound(tracker.tracks));
+    make_living_track()->look_nat = NAN;
+    assert_false(rho_life_is_sound(tracker.tracks));
+    make_living_track()->seen_nat = -1.0f;
+    assert_false(rho_life_is_sound(tracker.tracks));
+    make_living_track()->missed = -1.0f;
+    assert_false(rho_life_is_sound(tracker.tracks));
 }
 
 /* ---- coverage and notch of a sensor ---------------------------------------------------------- */
@@ -541,7 +642,10 @@ int main(void)
         cmocka_unit_test(clutter_counts_are_averaged_over_ten_scans),
         cmocka_unit_test(clutter_density_has_a_least_area_and_value),
         cmocka_unit_test(tentative_tracks_end_when_one_in_a_hundred_is_true),
-        cmocka_unit_test(in_little_clutter_missed_tracks_become_tentative_not_ended),
+        cmocka_unit_test(a_missed_track_is_not_confirmed_for_the_first_time),
+        cmocka_unit_test(existence_decides_what_is_shown_and_ends),
+        cmocka_unit_test(places_that_clutter_would_fill_are_not_shown),
+        cmocka_unit_test(probabilities_outside_0_to_1_are_unsound),
         cmocka_unit_test(plots_four_sigmas_beyond_the_range_are_covered),
         cmocka_unit_test(tracks_stay_in_the_notch_for_five_minutes_at_most),
         cmocka_unit_test(a_look_in_the_notch_has_a_small_pd),

@@ -12,11 +12,6 @@
 #include "rhotrack/tracker.h"
 
 static const struct rho_track_model model = {.speed_sigma_mps = 300.0f, .noise_density = 1.0f};
-static const struct rho_track_limits limits = {.confirm_mnat = 5000,
-                                               .tentative_mnat = -4000,
-                                               .doubt_mnat = 6500,
-                                               .fall_mnat = 7000,
-                                               .misses_in_row_max = 3};
 
 static void plots_on_line(struct rho_track_plot *plots, unsigned count)
 {
@@ -256,56 +251,38 @@ static void a_first_height_opens_the_third_axis(void **state)
     assert_float_equal(track.kalman.covariance[RHO_AT(2, 2)], 194.8f, 1.0f);
 }
 
-static void scores_confirm_and_misses_end_a_track(void **state)
+static void a_miss_lowers_the_score_and_lets_a_confirmed_track_coast(void **state)
 {
     (void)state;
-    struct rho_track track = start_track(4999);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_TENTATIVE);
-    track.score_mnat = track.score_max_mnat = 5000;
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_count_miss(&track, 2300);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_COASTING);
-    rho_track_count_miss(&track, 2300);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_COASTING);
-    assert_int_equal(track.misses_in_row, 2);
-    rho_track_count_miss(&track, 0);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits),
-                     RHO_TRACK_FREE); /* after three misses in a row */
+    for (int is_confirmed = 0; is_confirmed < 2; is_confirmed++) {
+        struct rho_track track = start_track(5000);
+        track.status = is_confirmed ? RHO_TRACK_CONFIRMED : RHO_TRACK_TENTATIVE;
+        for (int misses = 1; misses < 4; misses++) {
+            rho_track_count_miss(&track, 2300);
+            assert_int_equal(track.status, is_confirmed ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
+            assert_int_equal(track.misses, misses);
+            assert_int_equal(track.misses_in_row, misses);
+            assert_int_equal(track.score_mnat, 5000 - 2300 * misses);
+            assert_int_equal(track.score_max_mnat, 5000);
+        }
+    }
 }
 
-static void a_low_score_ends_a_track(void **state)
+/* The evidence of a look is what it changed the score by, in nat. */
+static void hits_and_misses_of_a_look_add_up(void **state)
 {
     (void)state;
-    struct rho_track confirmed = start_track(9000), tentative = start_track(0);
-    assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_count_miss(&confirmed, 6499);
-    assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_COASTING);
-    confirmed.score_mnat -= 501;
-    assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_FREE);
-    rho_track_count_miss(&tentative, 4000);
-    assert_int_equal(rho_track_apply_thresholds(&tentative, &limits), RHO_TRACK_TENTATIVE);
-    rho_track_count_miss(&tentative, 1);
-    assert_int_equal(rho_track_apply_thresholds(&tentative, &limits), RHO_TRACK_FREE);
-}
-
-static void a_doubted_track_is_confirmed_again_as_itself(void **state)
-{
-    (void)state;
-    struct rho_track track = start_track(9000);
-    assert_false(track.was_confirmed);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_count_miss(&track, 6500);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_TENTATIVE);
-    assert_true(track.was_confirmed);
-    /* below the confirm threshold it is confirmed again, as it had been before the doubt */
-    track.score_mnat += 1;
-    assert_true(track.score_mnat < limits.confirm_mnat);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
-    assert_int_equal(track.track_id, 42);
-    /* a track never confirmed is not, at the same score */
-    struct rho_track never = start_track(4000);
-    assert_int_equal(rho_track_apply_thresholds(&never, &limits), RHO_TRACK_TENTATIVE);
-    assert_false(never.was_confirmed);
+    struct rho_plot plot = {
+        .x_m = 2500.0f, .y_m = -500.0f, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
+    struct rho_track track = start_track(5000);
+    struct rho_track_plot seen = seen_at(10000000, &plot);
+    assert_float_equal(track.look_nat, 0.0f, 0.0f); /* a start is no look */
+    rho_track_count_miss(&track, 2300);
+    assert_float_equal(track.look_nat, -2.3f, 1e-5f);
+    assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 7100), RHO_OK);
+    assert_float_equal(track.look_nat, 4.8f, 1e-5f);
+    rho_track_lower_score(&track, 5000);
+    assert_float_equal(track.look_nat, -0.2f, 1e-5f);
 }
 
 static void counters_and_scores_stay_at_their_limits(void **state)
@@ -354,9 +331,8 @@ int main(void)
         cmocka_unit_test(scan_times_do_not_change_the_estimate),
         cmocka_unit_test(refused_updates_change_nothing),
         cmocka_unit_test(a_first_height_opens_the_third_axis),
-        cmocka_unit_test(scores_confirm_and_misses_end_a_track),
-        cmocka_unit_test(a_low_score_ends_a_track),
-        cmocka_unit_test(a_doubted_track_is_confirmed_again_as_itself),
+        cmocka_unit_test(a_miss_lowers_the_score_and_lets_a_confirmed_track_coast),
+        cmocka_unit_test(hits_and_misses_of_a_look_add_up),
         cmocka_unit_test(counters_and_scores_stay_at_their_limits),
         cmocka_unit_test(going_back_in_time_restores_the_estimate),
     };

@@ -14,11 +14,6 @@
 #define START_US INT64_C(7000000)
 
 static const struct rho_track_model model = {.speed_sigma_mps = 300.0f, .noise_density = 1.0f};
-static const struct rho_track_limits limits = {.confirm_mnat = 5000,
-                                               .tentative_mnat = -4000,
-                                               .doubt_mnat = 6500,
-                                               .fall_mnat = 7000,
-                                               .misses_in_row_max = 3};
 
 static struct rho_kalman estimate_of_target(void)
 {
@@ -64,7 +59,6 @@ static void a_track_starts_from_an_estimate(void **state)
     assert_int_equal(track.score_max_mnat, 6000);
     assert_true(track.time_us == START_US && track.updated_us == START_US);
     assert_memory_equal(&track.kalman, &kalman, sizeof kalman);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
 }
 
 static void expect_start_refused(const struct rho_kalman *kalman, uint16_t hits)
@@ -160,11 +154,33 @@ static void a_bearing_ends_coasting_of_a_track(void **state)
     assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, -20000), RHO_OK);
     assert_int_equal(track.status, RHO_TRACK_TENTATIVE); /* a bearing alone confirms no track */
     track = start_track();
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
+    track.status = RHO_TRACK_CONFIRMED;
     rho_track_count_miss(&track, 100);
     assert_int_equal(track.status, RHO_TRACK_COASTING);
     assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 100), RHO_OK);
     assert_int_equal(track.status, RHO_TRACK_CONFIRMED);
+}
+
+/* A mix of bearings of which none is claimed moves the estimate, and is neither hit nor miss. */
+static void a_bearing_of_no_row_is_no_hit(void **state)
+{
+    (void)state;
+    struct rho_track track = start_track(), sure = track;
+    struct rho_track_bearing bearing = bearing_at_time(START_US + 1000000);
+    track.status = RHO_TRACK_CONFIRMED;
+    rho_track_count_miss(&track, 100);
+    assert_int_equal(rho_track_update_bearing(&sure, &bearing, &model, 700), RHO_OK);
+    bearing.row = -1;
+    assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 700), RHO_OK);
+    assert_memory_equal(&track.kalman, &sure.kalman, sizeof sure.kalman);
+    assert_true(track.time_us == START_US + 1000000);
+    assert_true(track.updated_us == START_US);
+    assert_int_equal(track.hits, 8);
+    assert_int_equal(track.misses_in_row, 1);
+    assert_int_equal(track.status, RHO_TRACK_COASTING);
+    assert_int_equal(track.plot, -1);
+    assert_int_equal(track.sensor_id, 9);
+    assert_int_equal(track.score_mnat, 6000 - 100 + 700);
 }
 
 static void expect_refused(struct rho_track track, const struct rho_track_bearing *bearing,
@@ -203,14 +219,15 @@ static void a_lowered_score_is_no_miss(void **state)
     before = track;
     rho_track_lower_score(&track, 2303);
     assert_int_equal(track.score_mnat, 6000 - 2303);
+    assert_float_equal(track.look_nat, -2.303f, 1e-5f);
     before.score_mnat = track.score_mnat;
+    before.look_nat = track.look_nat;
     assert_memory_equal(&track, &before, sizeof track);
     for (int i = 0; i < 3; i++) {
         rho_track_lower_score(&track, INT32_MAX); /* the score stays at its limit */
     }
     assert_int_equal(track.score_mnat, -1000000000);
     assert_int_equal(track.score_max_mnat, 6000);
-    assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_FREE);
 }
 
 int main(void)
@@ -221,6 +238,7 @@ int main(void)
         cmocka_unit_test(a_bearing_updates_the_track_at_its_own_time),
         cmocka_unit_test(bearings_of_one_step_count_as_one_hit),
         cmocka_unit_test(a_bearing_ends_coasting_of_a_track),
+        cmocka_unit_test(a_bearing_of_no_row_is_no_hit),
         cmocka_unit_test(a_refused_bearing_changes_nothing),
         cmocka_unit_test(a_lowered_score_is_no_miss),
     };

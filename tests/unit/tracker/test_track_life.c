@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracks end when no sensor sees them: targets that left, radars that are switched off; plots
- * beyond a stated coverage, and tracks faster than any target.
+ * Tracks end when no sensor sees them: targets that left, radars that are switched off; the
+ * probability of existence behind it; plots beyond a stated coverage, and tracks faster than any
+ * target.
  */
 #include "tracker_setup.h"
 
@@ -412,10 +413,7 @@ static void step_scan_of_one_target(double t_s, int is_seen, int clutter)
     step_scan((struct rho_scan){.time_us = llround(t_s * 1e6), .sensor_id = 1});
 }
 
-/*
- * The radar is off for a minute and then misses the target `misses` times: until the third miss the
- * track is tentative.
- */
+/* The radar is off for a minute and then misses the target `misses` times. */
 static void miss_after_radar_was_off(uint64_t seed, int misses, int clutter)
 {
     double t_s = 0.0;
@@ -428,22 +426,18 @@ static void miss_after_radar_was_off(uint64_t seed, int misses, int clutter)
     t_s += 60.0;
     for (int k = 1; k <= misses; k++, t_s += 4.0) {
         step_scan_of_one_target(t_s, 0, clutter);
-        const struct rho_track_report *track = report_of(id);
-        assert_int_equal(track != NULL, k < 3);
-        assert_true(!track || track->status == RHO_TRACK_TENTATIVE);
+        assert_non_null(report_of(id));
     }
-    for (int k = 0; k < 5 && misses < 3; k++, t_s += 4.0) {
+    for (int k = 0; k < 5; k++, t_s += 4.0) {
         step_scan_of_one_target(t_s, 1, clutter);
         assert_non_null(report_of(id));
-        assert_int_equal(report_of(id)->plot, 0);
+        if (k > 0 || clutter < 100) { /* the first plot amid dense clutter may be any of many */
+            assert_int_equal(report_of(id)->plot, 0);
+        }
     }
-    assert_true(misses > 2 || report_of(id)->status == RHO_TRACK_CONFIRMED);
+    assert_int_equal(report_of(id)->status, RHO_TRACK_CONFIRMED);
 }
 
-/*
- * Until it is seen again the track is tentative; the third miss ends it. In dense clutter the plot
- * that ends the wait is doubtful and must not lower the score a second time.
- */
 static void a_target_missed_after_a_radar_pause_keeps_its_track(void **state)
 {
     (void)state;
@@ -452,7 +446,7 @@ static void a_target_missed_after_a_radar_pause_keeps_its_track(void **state)
         radars[0] = radar_of_80_km();
         radars[0].is_described = is_described;
         for (uint64_t seed = 1; seed <= 5; seed++) {
-            for (int misses = 0; misses <= 3; misses++) {
+            for (int misses = 0; misses <= 2; misses++) {
                 miss_after_radar_was_off(seed, misses, 6);
             }
             if (RHO_MAX_PLOTS > 300) {
@@ -462,48 +456,119 @@ static void a_target_missed_after_a_radar_pause_keeps_its_track(void **state)
     }
 }
 
-/*
- * A target seen in so many scans, then missed in so many. Returns the track's identity before the
- * misses.
- */
-static uint32_t see_then_miss_target_and_return_track_id(int seen, int missed, double *t_s)
+/* ---- the probability that the target exists -------------------------------------------------- */
+
+/* Starts a scene and sees a target in 12 scans; returns its track. */
+static uint32_t see_target_in_12_scans(double *t_s)
 {
     start_scene(7, 30.0, 350.0, 20.0);
-    for (int k = 0; k < seen; k++, *t_s += 4.0) {
-        step_scan_of_one_target(*t_s, 1, 6);
+    for (int k = 0; k < 12; k++, *t_s += 4.0) {
+        step_scan_of_one_target(*t_s, 1, 2);
     }
-    const uint32_t id = report.tracks[0].track_id;
-    for (int k = 1; k <= missed; k++, *t_s += 4.0) {
-        step_scan_of_one_target(*t_s, 0, 6);
-        const struct rho_track_report *track = report_of(id);
-        assert_true(!track || k < 3 || track->status == RHO_TRACK_TENTATIVE);
-    }
-    return id;
+    assert_int_equal(report.num_tracks, 1);
+    return report.tracks[0].track_id;
 }
 
-/*
- * Behind a hill for forty seconds the track goes on; twelve misses end it. Of a new track five
- * misses are enough.
- */
-static void an_established_target_hidden_for_a_while_keeps_its_identity(void **state)
+/* In a pause of the radar the target may have gone or been hidden: fewer misses end its track. */
+static void a_pause_of_the_radar_counts_as_scans_that_passed(void **state)
 {
+    int misses[2] = {0, 0};
     (void)state;
     num_radars = 1;
     radars[0] = radar_of_80_km();
-    for (int missed = 9; missed <= 12; missed++) {
+    for (int i = 0; i < 2; i++) {
         double t_s = 0.0;
-        const uint32_t id = see_then_miss_target_and_return_track_id(24, missed, &t_s);
-        assert_int_equal(report_of(id) != NULL, missed < 12);
+        const uint32_t id = see_target_in_12_scans(&t_s);
+        for (t_s += i ? 60.0 : 0.0; report_of(id) && misses[i] < 20; t_s += 4.0) {
+            step_scan_of_one_target(t_s, 0, 2);
+            misses[i]++;
+        }
+    }
+    assert_in_range(misses[0], 9, 12);
+    assert_in_range(misses[1], 3, misses[0] - 2);
+}
+
+/* The established track of a target behind a hill for forty seconds goes on; 13 misses end it. */
+static void an_established_target_hidden_for_a_while_keeps_its_identity(void **state)
+{
+    static const int missed[] = {9, 10, 13};
+    (void)state;
+    num_radars = 1;
+    radars[0] = radar_of_80_km();
+    for (int i = 0; i < 3; i++) {
+        double t_s = 0.0;
+        start_scene(7, 30.0, 350.0, 20.0);
+        for (int k = 0; k < 24; k++, t_s += 4.0) {
+            step_scan_of_one_target(t_s, 1, 6);
+        }
+        const uint32_t id = report.tracks[0].track_id;
+        for (int k = 1; k <= missed[i]; k++, t_s += 4.0) {
+            step_scan_of_one_target(t_s, 0, 6);
+            const struct rho_track_report *track = report_of(id);
+            assert_true(!track || k < 5 || track->status == RHO_TRACK_TENTATIVE);
+        }
+        assert_int_equal(report_of(id) != NULL, missed[i] < 13);
         for (int k = 0; k < 3; k++, t_s += 4.0) {
             step_scan_of_one_target(t_s, 1, 6);
         }
-        assert_int_equal(report_of(id) != NULL, missed < 12);
-        assert_true(missed == 12 || report_of(id)->status == RHO_TRACK_CONFIRMED);
+        assert_int_equal(report_of(id) != NULL, missed[i] < 13);
+        assert_true(missed[i] == 13 || report_of(id)->status == RHO_TRACK_CONFIRMED);
     }
-    double t_s = 0.0;
-    assert_non_null(report_of(see_then_miss_target_and_return_track_id(12, 4, &t_s)));
-    t_s = 0.0;
-    assert_null(report_of(see_then_miss_target_and_return_track_id(12, 5, &t_s)));
+}
+
+/* Eight targets abreast, seen for 120 s by a radar without clutter. */
+static void see_eight_targets_abreast(uint64_t seed)
+{
+    num_radars = 1;
+    radars[0] = radar_of_80_km();
+    radars[0].range_m = 150e3;
+    radars[0].clutter = 0.0;
+    start_scene(seed, 30.0, 350.0, 20.0);
+    for (int i = 0; i < 8; i++) {
+        targets[num_targets++] = (struct target){-100e3, -60e3 + 12e3 * i, 200.0, 0.0, 0.0};
+    }
+    step_all_until(120.0);
+    assert_int_equal(count_confirmed_or_coasting_tracks(), 8);
+}
+
+/* Of four scans without any plot the radar is the cause; a target missed alone has rather gone. */
+static void misses_of_all_tracks_are_the_radars(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        for (int missed = 1; missed <= 8; missed += 7) {
+            see_eight_targets_abreast(seed);
+            const uint32_t newest = tracker.next_track_id;
+            for (int i = 0; i < missed; i++) {
+                targets[i].born_s = 1e9;
+            }
+            step_all_until(now_s + 16.0);
+            unsigned shown = 0;
+            for (int i = 0; i < missed; i++) {
+                shown += first_confirmed_or_coasting_track_within(&targets[i], 3000.0) != NULL;
+                targets[i].born_s = 0.0;
+            }
+            assert_int_equal(shown, missed == 1 ? 0 : 8);
+            step_all_until(now_s + 12.0);
+            assert_int_equal(count_confirmed_or_coasting_tracks(), 8);
+            assert_int_equal(tracker.next_track_id, newest);
+        }
+    }
+}
+
+/* All targets leave at once: their tracks may be shown for the coasting time and three misses. */
+static void targets_that_leave_together_soon_lose_their_tracks(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        see_eight_targets_abreast(seed);
+        num_targets = 0;
+        for (int k = 1; k <= 20; k++) {
+            step_all_until(now_s + 4.0);
+            assert_true(k < 9 || count_confirmed_or_coasting_tracks() == 0);
+        }
+        assert_int_equal(report.num_tracks, 0);
+    }
 }
 
 /* One of two radars is switched off for good; the other one sees none or some of its targets. */
@@ -538,7 +603,8 @@ static void tracks_end_when_their_radar_is_switched_off(void **state)
 }
 
 /*
- * A radar is silent for ten minutes: at its next scan no track of the targets gone by then is left.
+ * A radar is silent for ten minutes: no track of the targets gone by then is shown any more, and
+ * none is left after ten scans.
  */
 static void after_ten_silent_minutes_no_old_track_is_left(void **state)
 {
@@ -554,12 +620,13 @@ static void after_ten_silent_minutes_no_old_track_is_left(void **state)
             const uint32_t newest = tracker.next_track_id;
             num_targets = 0;
             now_s += EMPTY_S;
-            step_all_until(now_s + 4.0);
-            for (unsigned i = 0; i < report.num_tracks; i++) {
-                assert_false(is_confirmed_or_coasting(&report.tracks[i]) &&
-                             report.tracks[i].track_id < newest);
+            for (int turn = 0; turn < 10; turn++) {
+                step_all_until(now_s + 4.0);
+                for (unsigned i = 0; i < report.num_tracks; i++) {
+                    assert_false(is_confirmed_or_coasting(&report.tracks[i]) &&
+                                 report.tracks[i].track_id < newest);
+                }
             }
-            step_all_until(now_s + 16.0);
             for (unsigned i = 0; i < report.num_tracks; i++) {
                 assert_true(report.tracks[i].track_id >= newest);
             }
@@ -672,6 +739,29 @@ static void plots_beyond_a_stated_coverage_are_invalid(void **state)
     expect_fate_of_plot_at(40e3, 3.0, RHO_FATE_HELD);
 }
 
+/* Rows of the track of a target that accelerates by 1 g, above 1.3 times v_max. */
+static int count_rows_of_a_target_that_gets_too_fast(int is_nearest)
+{
+    int rows = 0;
+    radars[0] = radar_of_80_km();
+    radars[0].clutter = 0.0;
+    start_scene(1, 30.0, 350.0, 20.0);
+    if (is_nearest) {
+        config.gate = RHO_TRACKER_NEAREST;
+        begin_tracker();
+    }
+    for (int k = 0; k < 40; k++) {
+        const double t_s = 4.0 * k, pulls_s = t_s > 80.0 ? t_s - 80.0 : 0.0;
+        const double x_m = -70e3 + 300.0 * t_s + 0.5 * 10.0 * pulls_s * pulls_s;
+        add_plot(x_m, 10e3, 30.0);
+        step_at(t_s);
+        if (300.0 + 10.0 * pulls_s > 1.3 * 350.0) {
+            rows += count_confirmed_or_coasting_tracks() > 0;
+        }
+    }
+    return rows;
+}
+
 /* Targets at v_max are followed; a target that accelerates beyond v_max soon loses its track. */
 static void tracks_faster_than_v_max_end_soon(void **state)
 {
@@ -691,22 +781,13 @@ static void tracks_faster_than_v_max_end_soon(void **state)
         assert_int_equal(tracker.counters.tracks_too_fast, 0);
         assert_true(tally.fast_rows * 20 < tally.rows);
     }
-    radars[0] = radar_of_80_km();
-    radars[0].clutter = 0.0;
-    start_scene(1, 30.0, 350.0, 20.0);
-    int rows = 0;
-    for (int k = 0; k < 40; k++) {
-        const double t_s = 4.0 * k, pulls_s = t_s > 80.0 ? t_s - 80.0 : 0.0;
-        const double x_m = -70e3 + 300.0 * t_s + 0.5 * 10.0 * pulls_s * pulls_s;
-        add_plot(x_m, 10e3, 30.0);
-        step_at(t_s);
-        if (300.0 + 10.0 * pulls_s > 1.3 * 350.0) {
-            rows += count_confirmed_or_coasting_tracks() > 0;
-        }
+    /* gate nearest ends the track at the third update that is too fast, best may lose it before */
+    for (int is_nearest = 0; is_nearest < 2; is_nearest++) {
+        const int rows = count_rows_of_a_target_that_gets_too_fast(is_nearest);
+        print_message("%d rows of the one that is too fast\n", rows);
+        assert_true(tracker.counters.tracks_too_fast >= 1 || !is_nearest);
+        assert_in_range(rows, 1, 4);
     }
-    print_message("%d rows of the one that is too fast\n", rows);
-    assert_true(tracker.counters.tracks_too_fast >= 1);
-    assert_true(rows <= 2); /* three updates in a row are too fast, the third ends the track */
 }
 
 /*
@@ -748,7 +829,10 @@ int main(void)
         cmocka_unit_test(a_short_range_sector_radar_keeps_no_track_of_gone_cars),
         cmocka_unit_test(tracks_survive_a_minute_without_the_radar),
         cmocka_unit_test(a_target_missed_after_a_radar_pause_keeps_its_track),
+        cmocka_unit_test(a_pause_of_the_radar_counts_as_scans_that_passed),
         cmocka_unit_test(an_established_target_hidden_for_a_while_keeps_its_identity),
+        cmocka_unit_test(misses_of_all_tracks_are_the_radars),
+        cmocka_unit_test(targets_that_leave_together_soon_lose_their_tracks),
         cmocka_unit_test(tracks_end_when_their_radar_is_switched_off),
         cmocka_unit_test(after_ten_silent_minutes_no_old_track_is_left),
         cmocka_unit_test(targets_are_tracked_through_the_coverage_of_two_radars),

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Doubted tracks: no longer believed but not yet ended, and how they are reported. Starts that
- * share their newest plot. The mean time of straight flight (steady_s).
+ * The probability that a track's target exists, and the tracks in doubt: no longer believed but not
+ * yet ended, and how they are reported. Starts that share their newest plot. The mean time of
+ * straight flight (steady_s).
  */
+#include "life_chain.h"
 #include "tracker_setup.h"
 
 #define SCAN_S 2.0
@@ -27,6 +29,268 @@ static enum rho_track_status status_of_track_1(void)
 {
     const struct rho_track_report *first = report_of(1);
     return first ? first->status : RHO_TRACK_FREE;
+}
+
+/* ---- the chain of a target's life ------------------------------------------------------------ */
+
+static struct life_chain chain;
+static double blind;
+
+/* Steps scan k; the chain takes the evidence that the track's score shows. */
+static void step_scan_with_chain(int k, int is_seen)
+{
+    const struct rho_tracker_life rates = rho_tracker_life(&tracker);
+    const enum rho_track_status before = report.tracks[0].status;
+    const double score_nat = (double)report.tracks[0].score_nat;
+    const double interval_s = fmax(SCAN_S, (double)tracker.tracks[0].seen_every_s);
+    if (is_seen) {
+        see_target(k);
+    }
+    step_at(SCAN_S * k);
+    chain_pass(&chain, SCAN_S / interval_s, &rates, blind);
+    if (report.num_tracks > 0) {
+        const double gain_nat = (double)report.tracks[0].score_nat - score_nat;
+        chain.is_established = report.tracks[0].hits >= 16;
+        chain_weigh(&chain, &gain_nat, 1, &blind,
+                    tracker.tracks[0].misses_in_row <= config.coast_scans_max);
+        assert_float_equal(tracker.tracks[0].visible, chain.visible, 3e-4);
+        assert_float_equal(tracker.tracks[0].hidden, chain.hidden, 3e-4);
+        assert_int_equal(report.tracks[0].status, chain_status(&chain, before, !is_seen));
+    } else { /* the last miss, of which there is no report */
+        const double gain_nat = log(1.0 - chain.share * (double)config.pd);
+        chain_weigh(&chain, &gain_nat, 1, &blind, 0);
+        assert_true(chain_exists(&chain) <
+                    (chain.is_established ? CHAIN_ENDED : 2.0 * CHAIN_ENDED) + 2e-3);
+    }
+}
+
+static void start_with_chain(uint64_t seed, float pd)
+{
+    use_usual_configs(seed);
+    config.pd = initiation.pd = pd;
+    begin_tracker();
+    step_scans(0, 4);
+    assert_int_equal(status_of_track_1(), RHO_TRACK_CONFIRMED);
+    chain = chain_of_start((double)report.tracks[0].score_nat - 1e-3 * tracker.confirm_mnat);
+    blind = 0.0;
+}
+
+/* Misses until the track ends; is_seen: bits of the scans after the start with a plot. */
+static int misses_until_end(float pd, uint32_t is_seen, int scans)
+{
+    int misses = 0;
+    start_with_chain(1, pd);
+    for (int k = 4; k < 4 + scans; k++) {
+        step_scan_with_chain(k, is_seen >> (k - 4) & 1u);
+        assert_int_equal(report.num_tracks, 1);
+    }
+    for (int k = 4 + scans; report.num_tracks > 0 && misses < 60; k++, misses++) {
+        step_scan_with_chain(k, 0);
+    }
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], 1);
+    return misses;
+}
+
+/* Visible, hidden or gone: as the chain says, before and after 16 hits, with misses among them. */
+static void existence_follows_the_chain_of_a_targets_life(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const float pd = i ? 0.9f : 0.5f;
+        const int young = misses_until_end(pd, 0x3f, 6), old = misses_until_end(pd, 0x3ffff, 18);
+        const int faded = misses_until_end(pd, 0x1eb5ff, 21),
+                  back = misses_until_end(pd, 0x3c0ff, 18);
+        print_message("pd %.1f: ends after %d, %d, %d, %d misses\n", (double)pd, young, old, faded,
+                      back);
+        assert_in_range(young, i ? 4 : 8, i ? 16 : 24);
+        assert_in_range(old, i ? 4 : 8, i ? 16 : 24);
+    }
+}
+
+/* ---- blind looks ----------------------------------------------------------------------------- */
+
+#define TEN 10
+
+static struct life_chain ten[TEN];
+static double existed[TEN], lost_nat[TEN]; /* before a scan, and what it took from the score */
+
+/* Adds plots of the targets whose tracks are in rows from num_missed on. */
+static void see_ten_targets(int k, int num_missed)
+{
+    for (int i = 0; i < TEN; i++) {
+        int row = 0;
+        while (row < num_missed && fabs((double)report.tracks[row].state[1] - 3000.0 * i) > 300.0) {
+            row++;
+        }
+        if (row == num_missed) {
+            add_plot(500.0 * k, 3000.0 * i + uniform(-8.0, 8.0), 10.0);
+        }
+    }
+}
+
+/* Steps a scan that misses the first tracks; ten chains take the same evidence. */
+static void step_ten_targets(int k, int num_missed)
+{
+    const struct rho_tracker_life rates = rho_tracker_life(&tracker);
+    double gain_nat[TEN], interval_s[TEN];
+    for (int i = 0; i < TEN; i++) {
+        existed[i] = (double)(tracker.tracks[i].visible + tracker.tracks[i].hidden);
+        interval_s[i] = fmax(SCAN_S, (double)tracker.tracks[i].seen_every_s);
+        gain_nat[i] = -(double)report.tracks[i].score_nat;
+    }
+    see_ten_targets(k, num_missed);
+    step_at(SCAN_S * k);
+    assert_int_equal(report.num_tracks, TEN);
+    for (int i = 0; i < TEN; i++) {
+        assert_int_equal(report.tracks[i].track_id, i + 1);
+        gain_nat[i] += (double)report.tracks[i].score_nat;
+        lost_nat[i] = -gain_nat[i];
+        chain_pass(&ten[i], SCAN_S / interval_s[i], &rates, blind);
+    }
+    chain_weigh(ten, gain_nat, TEN, &blind, 1);
+    for (int i = 0; i < TEN; i++) {
+        assert_float_equal(tracker.tracks[i].visible, ten[i].visible, 1e-3);
+        assert_float_equal(tracker.tracks[i].hidden, ten[i].hidden, 1e-3);
+    }
+}
+
+static void start_ten_targets(void)
+{
+    use_usual_configs(1);
+    config.learn_pd_min = 1.0f; /* the P_D is the stated one */
+    begin_tracker();
+    for (int k = 0; k < 20; k++) {
+        see_ten_targets(k, 0);
+        step_at(SCAN_S * k);
+    }
+    assert_int_equal(report.num_tracks, TEN);
+    for (int i = 0; i < TEN; i++) {
+        assert_true(report.tracks[i].hits >= 16 && report.tracks[i].track_id == (uint32_t)i + 1);
+        ten[i] = (struct life_chain){.visible = (double)tracker.tracks[i].visible,
+                                     .hidden = (double)tracker.tracks[i].hidden,
+                                     .share = 1.0,
+                                     .is_established = 1};
+    }
+    blind = 0.0;
+}
+
+static double existence_of_row(int row)
+{
+    return (double)(tracker.tracks[row].visible + tracker.tracks[row].hidden);
+}
+
+/* What a look takes from all tracks at once is the sensor's fault: they keep their probability. */
+static void a_look_that_misses_all_tracks_is_blind(void **state)
+{
+    (void)state;
+    start_ten_targets();
+    step_ten_targets(20, TEN);
+    for (int i = 0; i < TEN; i++) {
+        assert_float_equal(lost_nat[i], -log(0.1), 0.01); /* nothing told of a blind look before */
+        assert_true(existence_of_row(i) > existed[i] - 0.006); /* but what time takes: 1 / 200 */
+    }
+    /* the next look is blind with 0.8, and so takes less from the score */
+    for (int k = 21; k < 24; k++) {
+        step_ten_targets(k, TEN);
+        for (int i = 0; i < TEN; i++) {
+            assert_float_equal(lost_nat[i], -log(1.0 - 0.9 * 0.2), 0.03);
+            assert_true(existence_of_row(i) > existed[i] - 0.006);
+            assert_int_equal(report.tracks[i].status, RHO_TRACK_COASTING);
+        }
+    }
+    /* it sees again: the next miss is the track's own */
+    step_ten_targets(24, 0);
+    for (int i = 0; i < TEN; i++) {
+        assert_int_equal(report.tracks[i].status, RHO_TRACK_CONFIRMED);
+    }
+    step_ten_targets(25, 1);
+    assert_float_equal(lost_nat[0], -log(0.1), 0.01);
+}
+
+static void a_track_missed_alone_loses_its_probability(void **state)
+{
+    (void)state;
+    start_ten_targets();
+    for (int k = 20; k < 23; k++) {
+        step_ten_targets(k, 1);
+        assert_true(existence_of_row(0) < existed[0] - 0.02);
+        for (int i = 1; i < TEN; i++) {
+            assert_true(existence_of_row(i) > 0.999);
+        }
+    }
+    assert_int_equal(report.tracks[0].status, RHO_TRACK_TENTATIVE);
+}
+
+/* ---- learned rates of life ------------------------------------------------------------------- */
+
+/*
+ * The prior: one target in 200 scans leaves, and one is hidden; it weighs 400 scans. No fewer than
+ * that are hidden.
+ */
+static void expect_rates(double scans, double gone, double least_returned, double most_returned)
+{
+    const struct rho_tracker_life life = rho_tracker_life(&tracker);
+    assert_float_equal(life.lived_scans, scans, 5e-3 * scans + 1e-3);
+    assert_float_equal(life.death, (gone + 2.0) / (scans + 400.0), 2e-5);
+    assert_float_equal(life.appear, 1.0 / (0.7 * config.coast_scans_max), 1e-5);
+    assert_true(life.hide > fmax(0.005, (least_returned + 1.98) / (scans + 400.0)) - 2e-5);
+    assert_true(life.hide < fmax(0.005, (most_returned + 2.02) / (scans + 400.0)) + 2e-5);
+}
+
+/* Two targets, so that a scan without one of them is not blind. */
+static void step_two_targets(int k, int num_seen)
+{
+    if (num_seen > 1) {
+        see_target(k);
+    }
+    add_plot(500.0 * k, 5000.0 + uniform(-8.0, 8.0), 10.0);
+    step_at(SCAN_S * k);
+}
+
+static void rates_of_life_are_learned_from_established_tracks(void **state)
+{
+    const double kept = exp(-SCAN_S / 1600.0);
+    double scans = 0.0;
+    int k = 0;
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    for (; k < 16; k++) {
+        step_two_targets(k, 2);
+    }
+    assert_true(report.tracks[0].hits == 16 && report.tracks[1].hits == 16);
+    expect_rates(0.0, 0.0, 0.0, 0.0);
+    for (; k < 200; k++) { /* each scan of each track counts, and fades in half an hour */
+        step_two_targets(k, 2);
+        scans = (scans + 2.0) * kept;
+    }
+    expect_rates(scans, 0.0, 0.0, 0.0);
+    /* missed four times and seen again, ten times: each time it was probably hidden */
+    for (; k < 300; k++) {
+        step_two_targets(k, k % 10 < 4 ? 1 : 2);
+        scans = (scans + 2.0) * kept;
+    }
+    assert_int_equal(report.num_tracks, 2);
+    assert_int_equal(tracker.counters.tracks_started, 2);
+    expect_rates(scans, 0.0, 6.0, 10.0);
+    for (; report.num_tracks > 1 && k < 340; k++) {
+        step_two_targets(k, 1);
+        scans = (scans + 2.0) * kept;
+    }
+    assert_int_equal(report.num_ended, 1);
+    expect_rates(scans, 1.0, 5.5, 10.0);
+}
+
+static void without_a_tracker_there_are_no_rates(void **state)
+{
+    static struct rho_tracker none;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const struct rho_tracker_life life = rho_tracker_life(i ? &none : NULL);
+        assert_true(life.death == 0.0f && life.hide == 0.0f && life.appear == 0.0f &&
+                    life.lived_scans == 0.0f);
+    }
 }
 
 /* ---- doubted tracks -------------------------------------------------------------------------- */
@@ -60,12 +324,13 @@ static void a_doubted_track_that_ends_is_reported_as_ended(void **state)
     use_usual_configs(1);
     begin_tracker();
     step_scans(0, LAST);
-    for (int k = LAST; k < LAST + 4; k++) {
-        step_at(SCAN_S * k);
+    enum rho_track_status before = RHO_TRACK_CONFIRMED;
+    int k = LAST;
+    for (step_at(SCAN_S * k); report.num_tracks > 0 && k < LAST + 30; step_at(SCAN_S * ++k)) {
         assert_int_equal(report.num_ended, 0);
+        before = status_of_track_1();
     }
-    assert_int_equal(status_of_track_1(), RHO_TRACK_TENTATIVE);
-    step_at(SCAN_S * (LAST + 4));
+    assert_int_equal(before, RHO_TRACK_TENTATIVE);
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], 1);
@@ -105,25 +370,25 @@ static void tracks_never_confirmed_are_not_reported_as_ended(void **state)
 }
 
 /*
- * If a sensor sees half of its targets, five misses in a row are rarer than none, but commoner than
- * the end of a target.
+ * Where a sensor sees half of its targets, misses are common: each halves the odds that a target is
+ * still there, where it would leave a tenth of them at a sensor that sees nine in ten.
  */
-static void misses_of_a_low_pd_sensor_raise_no_doubt(void **state)
+static void misses_of_a_low_pd_sensor_raise_less_doubt(void **state)
 {
     (void)state;
-    use_usual_configs(1);
-    config.pd = 0.5f;
-    initiation.pd = 0.5f;
-    begin_tracker();
-    step_scans(0, LAST);
-    assert_int_equal(status_of_track_1(), RHO_TRACK_CONFIRMED);
-    for (int k = LAST; k < LAST + 4; k++) {
-        step_at(SCAN_S * k);
-        assert_int_equal(status_of_track_1(), RHO_TRACK_COASTING);
+    for (int is_low = 0; is_low < 2; is_low++) {
+        use_usual_configs(1);
+        config.pd = initiation.pd = is_low ? 0.5f : 0.9f;
+        begin_tracker();
+        step_scans(0, LAST);
+        assert_int_equal(status_of_track_1(), RHO_TRACK_CONFIRMED);
+        int coasting = 0;
+        for (int k = LAST; k < LAST + 20; k++) {
+            step_at(SCAN_S * k);
+            coasting += status_of_track_1() == RHO_TRACK_COASTING;
+        }
+        assert_in_range(coasting, is_low ? 4 : 2, is_low ? 8 : 2);
     }
-    step_at(SCAN_S * (LAST + 4));
-    assert_int_equal(status_of_track_1(), RHO_TRACK_FREE);
-    assert_int_equal(report.num_ended, 1);
 }
 
 /* One step may end all tracks. */
@@ -140,8 +405,9 @@ static void all_tracks_ended_in_a_step_are_reported(void **state)
         step_at(SCAN_S * k);
     }
     assert_int_equal(report.num_tracks, TRACKS);
-    for (int k = LAST; k < LAST + 5; k++) {
-        step_at(SCAN_S * k);
+    int k = LAST;
+    for (step_at(SCAN_S * k); report.num_ended == 0 && k < LAST + 30; step_at(SCAN_S * ++k)) {
+        assert_int_equal(report.num_tracks, TRACKS);
     }
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, TRACKS);
@@ -350,10 +616,15 @@ static void v_min_out_of_range_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(existence_follows_the_chain_of_a_targets_life),
+        cmocka_unit_test(a_look_that_misses_all_tracks_is_blind),
+        cmocka_unit_test(a_track_missed_alone_loses_its_probability),
+        cmocka_unit_test(rates_of_life_are_learned_from_established_tracks),
+        cmocka_unit_test(without_a_tracker_there_are_no_rates),
         cmocka_unit_test(a_track_in_doubt_comes_back_with_its_identity),
         cmocka_unit_test(a_doubted_track_that_ends_is_reported_as_ended),
         cmocka_unit_test(tracks_never_confirmed_are_not_reported_as_ended),
-        cmocka_unit_test(misses_of_a_low_pd_sensor_raise_no_doubt),
+        cmocka_unit_test(misses_of_a_low_pd_sensor_raise_less_doubt),
         cmocka_unit_test(all_tracks_ended_in_a_step_are_reported),
         cmocka_unit_test(of_two_starts_from_one_newest_plot_one_waits),
         cmocka_unit_test(starts_from_different_newest_plots_are_both_made),

@@ -76,7 +76,7 @@ static void end_all_tracks(int k)
     scene.num_targets = 0;
     scene.clutter = 0.0;
     scene.num_sectors = 0;
-    for (int i = 0; i < 14; i++) { /* doubted established tracks end after twelve misses */
+    for (int i = 0; i < 45; i++) { /* hidden for three turns of three sectors, at most */
         step_tracker(k + i);
     }
     assert_int_equal(report.num_tracks, 0);

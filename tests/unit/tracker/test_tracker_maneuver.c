@@ -331,7 +331,7 @@ static void a_small_pool_of_hypotheses_is_shared_among_tracks(void **state)
     assert_true(best >= nearest + 10); /* measured 88 */
     scene.num_targets = 0;
     scene.clutter = 0.0;
-    for (int k = 40; k < 54; k++) { /* doubted established tracks end after twelve misses */
+    for (int k = 40; k < 64; k++) { /* at first the misses of all are taken for the sensor's */
         step_tracker(k);
     }
     assert_int_equal(tracker.hypotheses.num_free, RHO_MAX_HYPOTHESES);

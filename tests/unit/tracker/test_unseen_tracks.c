@@ -148,8 +148,6 @@ static struct rho_track *make_confirmed_track(float sensor_range_max_m, uint8_t 
     return track;
 }
 
-static const struct rho_track_limits limits = {.doubt_mnat = 5000, .fall_mnat = 20000};
-
 static int does_track_end_after(float sensor_range_max_m, uint8_t misses, double unseen_s)
 {
     struct rho_track *track = make_confirmed_track(sensor_range_max_m, misses);
@@ -158,7 +156,7 @@ static int does_track_end_after(float sensor_range_max_m, uint8_t misses, double
                                      .fates = report.fates,
                                      .teaches = 1,
                                      .time_us = llround(unseen_s * 1e6)}};
-    return rho_unseen_update(&at.look, track, 0, &limits);
+    return rho_unseen_update(&at.look, track);
 }
 
 static void unobserved_tracks_end_at_their_time_limits(void **state)
@@ -167,40 +165,47 @@ static void unobserved_tracks_end_at_their_time_limits(void **state)
     /* covered by a sensor: four times five and a half scans */
     assert_false(does_track_end_after(20000.0f, 0, 81.9));
     assert_true(does_track_end_after(20000.0f, 0, 82.1));
-    /* unobserved: five and a half scans, less the three misses */
-    assert_false(does_track_end_after(20000.0f, 3, 33.9));
-    assert_true(does_track_end_after(20000.0f, 3, 34.1));
-    assert_false(does_track_end_after(20000.0f, 2, 34.1));
+    /* whatever was missed */
+    assert_false(does_track_end_after(20000.0f, 3, 81.9));
+    assert_true(does_track_end_after(20000.0f, 3, 82.1));
     /* outside all coverage: five scans less 0.7 */
     assert_false(does_track_end_after(5000.0f, 0, 17.1));
     assert_true(does_track_end_after(5000.0f, 0, 17.3));
 }
 
-/* After so long, its plot is doubtful from 0.1 clutter plots in its gate of 3 sigmas on. */
-static void after_a_long_pause_a_plot_among_clutter_is_doubtful(void **state)
+/* The unit of a target's life: the interval of the slowest sensor that sees the track. */
+static void the_slowest_sensor_that_sees_a_track_sets_its_interval(void **state)
 {
-    const double sigma_m = sqrt(0.1 / (3.14159265 * 9.0 * 1e-7));
     (void)state;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 5; i++) {
         struct rho_track *track = make_confirmed_track(20000.0f, 0);
-        const struct rho_scan scan = {.sensor_id = 1};
-        const struct step at = {.tracker = &tracker,
-                                .look = {.tracker = &tracker,
-                                         .fates = report.fates,
-                                         .teaches = 1,
-                                         .scan = &scan,
-                                         .time_us = 23000000}};
-        tracker.unclaimed_plots = 10.0f; /* on an area of 10 by 10 km */
-        tracker.extent = (struct rho_extent){0.0f, 10000.0f, 0.0f, 10000.0f};
-        for (int axis = 0; axis < 2; axis++) {
-            track->kalman.covariance[RHO_AT(axis, axis)] =
-                (float)(sigma_m * sigma_m * (i ? 1.02 : 0.98));
-            track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
-        }
-        track->plot = 0;
-        assert_false(rho_unseen_update(&at.look, track, 0, &limits));
-        assert_int_equal(track->score_mnat, i ? -5000 : 0);
-        assert_int_equal(track->seen_us, 23000000); /* whichever row the plot has */
+        const struct rho_sensor other = {
+            .sensor_id = 2, .pd = 0.9f, .range_max_m = i == 1 ? 9000.0f : 20000.0f};
+        const struct rho_look look = {.tracker = &tracker};
+        assert_int_equal(rho_tracker_set_sensor(&tracker, &other), RHO_OK);
+        tracker.num_rows = 2;
+        tracker.sensors[1].pace.is_heard = i != 2;
+        tracker.sensors[1].pace.interval_s = 10.0f;
+        track->sensor_id = i == 4 ? 2 : 1;
+        track->seen_every_s = i == 3 ? 12.0f : 3.0f;
+        assert_float_equal(rho_unseen_interval_s(&look, track),
+                           i == 3             ? 12.0f
+                           : i == 1 || i == 2 ? 4.0f
+                                              : 10.0f,
+                           0.0f);
+    }
+}
+
+/* A hit restarts the time for which a track is unseen, whichever row the plot has. */
+static void a_hit_restarts_the_unseen_time(void **state)
+{
+    (void)state;
+    for (int16_t plot = -1; plot < 2; plot++) {
+        struct rho_track *track = make_confirmed_track(20000.0f, 0);
+        const struct rho_look look = {.tracker = &tracker, .teaches = 1, .time_us = 23000000};
+        track->plot = plot;
+        assert_false(rho_unseen_update(&look, track));
+        assert_int_equal(track->seen_us, plot < 0 ? 0 : 23000000);
     }
 }
 
@@ -213,7 +218,7 @@ static void an_out_of_sequence_plot_counts_at_its_own_time(void **state)
             .tracker = &tracker,
             .look = {.tracker = &tracker, .fates = report.fates, .time_us = 3000000, .teaches = 0}};
         track->plot = plot;
-        assert_false(rho_unseen_update(&at.look, track, 0, &limits));
+        assert_false(rho_unseen_update(&at.look, track));
         assert_int_equal(track->seen_us, plot < 0 ? 0 : 3000000);
     }
 }
@@ -238,7 +243,8 @@ int main(void)
         cmocka_unit_test(the_interval_of_a_sensor_is_a_running_mean),
         cmocka_unit_test(a_tracks_hit_interval_falls_fast_and_rises_slowly),
         cmocka_unit_test(unobserved_tracks_end_at_their_time_limits),
-        cmocka_unit_test(after_a_long_pause_a_plot_among_clutter_is_doubtful),
+        cmocka_unit_test(the_slowest_sensor_that_sees_a_track_sets_its_interval),
+        cmocka_unit_test(a_hit_restarts_the_unseen_time),
         cmocka_unit_test(an_out_of_sequence_plot_counts_at_its_own_time),
         cmocka_unit_test(tracks_as_uncertain_as_the_sensors_range_end),
     };

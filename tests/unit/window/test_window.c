@@ -47,7 +47,7 @@ static uint32_t push_scan(int64_t time_us, uint32_t count)
 
 static void init_window(unsigned scans)
 {
-    assert_int_equal(rho_window_init(&window, sizeof window, scans, NULL, 0.0f), RHO_OK);
+    assert_int_equal(rho_window_init(&window, sizeof window, scans, NULL), RHO_OK);
 }
 
 static void a_refused_init_changes_nothing(void **state)
@@ -58,17 +58,14 @@ static void a_refused_init_changes_nothing(void **state)
     const struct rho_extent huge = {0.0f, 3.0e6f, 0.0f, 2.0f};
     memset(&window, 0x5a, sizeof window);
     before = window;
-    assert_int_equal(rho_window_init(NULL, sizeof window, 3, NULL, 0.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_window_init(&window, sizeof window - 1, 3, NULL, 0.0f), RHO_ERROR_SIZE);
-    assert_int_equal(rho_window_init(&window, sizeof window, 0, NULL, 0.0f), RHO_ERROR_CONFIG);
-    assert_int_equal(rho_window_init(&window, sizeof window, RHO_MAX_SCANS + 1, NULL, 0.0f),
+    assert_int_equal(rho_window_init(NULL, sizeof window, 3, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_window_init(&window, sizeof window - 1, 3, NULL), RHO_ERROR_SIZE);
+    assert_int_equal(rho_window_init(&window, sizeof window, 0, NULL), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_window_init(&window, sizeof window, RHO_MAX_SCANS + 1, NULL),
                      RHO_ERROR_CONFIG);
-    assert_int_equal(rho_window_init(&window, sizeof window, 3, &empty, 0.0f), RHO_ERROR_CONFIG);
-    assert_int_equal(rho_window_init(&window, sizeof window, 3, &not_a_number, 0.0f),
-                     RHO_ERROR_CONFIG);
-    assert_int_equal(rho_window_init(&window, sizeof window, 3, &huge, 0.0f), RHO_ERROR_CONFIG);
-    assert_int_equal(rho_window_init(&window, sizeof window, 3, NULL, -1.0f), RHO_ERROR_CONFIG);
-    assert_int_equal(rho_window_init(&window, sizeof window, 3, NULL, NAN), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_window_init(&window, sizeof window, 3, &empty), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_window_init(&window, sizeof window, 3, &not_a_number), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_window_init(&window, sizeof window, 3, &huge), RHO_ERROR_CONFIG);
     assert_memory_equal(&window, &before, sizeof window);
 }
 
@@ -142,20 +139,22 @@ static void plots_beyond_the_capacity_get_the_fate_no_room(void **state)
     }
 }
 
+#define GATE_CHI2 13.8f
+
 /* The nearest plot by an exhaustive search. */
 static int nearest_without_bins(const struct rho_window_scan *scan,
-                                const struct rho_window_query *query)
+                                const struct rho_window_place *place)
 {
     int best = -1;
-    float best_d2 = query->gate_chi2, best_variance = 1.0f;
+    float best_d2 = GATE_CHI2, best_variance = 1.0f;
     for (int i = 0; i < scan->num_plots; i++) {
         const struct rho_window_plot *plot = &scan->plots[i];
-        float dx = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
-        float dy = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
+        float dx = plot->x_m - place->x_m - place->vx_mps * plot->offset_s;
+        float dy = plot->y_m - place->y_m - place->vy_mps * plot->offset_s;
         float d2 = dx * dx + dy * dy;
         float sigma_m = rho_window_larger_sigma_m(plot);
-        float variance = query->variance_m2 + query->sigma_factor * sigma_m * sigma_m;
-        if (d2 * best_variance < best_d2 * variance && !(scan->marks[i] & query->skip_flags)) {
+        float variance = place->noise.xx_m2 + place->factor * sigma_m * sigma_m;
+        if (d2 * best_variance < best_d2 * variance && !(scan->marks[i] & place->skip_flags)) {
             best = i;
             best_d2 = d2;
             best_variance = variance;
@@ -164,22 +163,20 @@ static int nearest_without_bins(const struct rho_window_scan *scan,
     return best;
 }
 
-static struct rho_window_query random_query(const struct rho_window_scan *scan)
+static struct rho_window_place random_straight_place(const struct rho_window_scan *scan)
 {
-    struct rho_window_query query = {
+    struct rho_window_place place = {
         .x_m = uniform(-1500.0f, 1500.0f),
         .y_m = uniform(-900.0f, 900.0f),
         .vx_mps = uniform(-50.0f, 50.0f),
         .vy_mps = uniform(-50.0f, 50.0f),
-        .variance_m2 = uniform(0.0f, 900.0f),
-        .sigma_factor = uniform(0.5f, 2.0f),
-        .gate_chi2 = 13.8f,
+        .noise = {.xx_m2 = uniform(0.0f, 900.0f)},
+        .factor = uniform(0.5f, 2.0f),
         .skip_flags = seed & 0x10000u ? RHO_WINDOW_TAKEN : 0,
     };
-    query.gate_radius_m =
-        sqrtf(query.gate_chi2 *
-              (query.variance_m2 + query.sigma_factor * scan->sigma_max_m * scan->sigma_max_m));
-    return query;
+    place.gate_radius_m = sqrtf(
+        GATE_CHI2 * (place.noise.xx_m2 + place.factor * scan->sigma_max_m * scan->sigma_max_m));
+    return place;
 }
 
 static void scatter_plots(float spread_m)
@@ -198,16 +195,16 @@ static void the_nearest_plot_agrees_with_an_exhaustive_search(void **state)
     int found = 0;
     for (int round = 0; round < 200; round++) {
         const struct rho_extent *fixed = round % 2 ? &area : NULL;
-        assert_int_equal(rho_window_init(&window, sizeof window, 3, fixed, 0.0f), RHO_OK);
+        assert_int_equal(rho_window_init(&window, sizeof window, 3, fixed), RHO_OK);
         scatter_plots(round % 5 == 0 ? 0.0f : 1200.0f);
         push_scan(0, PLOTS);
         struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
         scan->marks[7] |= RHO_WINDOW_TAKEN;
         for (int i = 0; i < 50; i++) {
             struct rho_window_work work = {0};
-            struct rho_window_query query = random_query(scan);
-            int nearest = rho_window_nearest_isotropic(scan, &query, &work);
-            assert_int_equal(nearest, nearest_without_bins(scan, &query));
+            struct rho_window_place place = random_straight_place(scan);
+            int nearest = rho_window_nearest_isotropic(scan, &place, GATE_CHI2, &work);
+            assert_int_equal(nearest, nearest_without_bins(scan, &place));
             assert_int_equal(work.lookups, 1);
             found += nearest >= 0;
         }
@@ -225,12 +222,12 @@ static void bins_reduce_the_number_of_distance_tests(void **state)
     }
     push_scan(0, 200);
     for (int i = 0; i < 100; i++) {
-        struct rho_window_query query = {.x_m = uniform(0.0f, 10000.0f),
+        struct rho_window_place place = {.x_m = uniform(0.0f, 10000.0f),
                                          .y_m = uniform(0.0f, 10000.0f),
-                                         .sigma_factor = 1.0f,
-                                         .gate_chi2 = 13.8f,
+                                         .factor = 1.0f,
                                          .gate_radius_m = 40.0f};
-        (void)rho_window_nearest_isotropic(rho_window_scan_at(&window, 0), &query, &work);
+        (void)rho_window_nearest_isotropic(rho_window_scan_at(&window, 0), &place, GATE_CHI2,
+                                           &work);
     }
     assert_in_range(work.distances, 1, 200 * 100 / 50);
 }
@@ -446,6 +443,19 @@ static void stored_covariances_follow_the_line_of_sight(void **state)
     assert_null(rho_window_sensor_if_described(rho_window_scan_at(&window, 0)));
 }
 
+/* A second update by the same plots moves no side of a lone scan's extent. */
+static void a_lone_scans_extent_is_that_of_its_plots(void **state)
+{
+    (void)state;
+    init_window(3);
+    scatter_plots(1000.0f);
+    push_scan(0, PLOTS);
+    const struct rho_extent once = window.extent;
+    assert_true(once.x_max_m > once.x_min_m && once.y_max_m > once.y_min_m);
+    rho_window_update_extent(&window);
+    assert_memory_equal(&window.extent, &once, sizeof once);
+}
+
 static void an_extent_grows_with_its_points(void **state)
 {
     (void)state;
@@ -475,15 +485,15 @@ static void each_plot_is_stored_in_the_bin_of_its_place(void **state)
     for (unsigned i = 0; i < scan->num_plots; i++) {
         const struct rho_window_plot *plot = &scan->plots[i];
         const unsigned bin = rho_window_bin_at(scan, plot->x_m, plot->y_m);
-        const struct rho_window_bins under =
-            rho_window_bins_under(scan, plot->x_m, plot->x_m, plot->y_m, plot->y_m);
+        const struct rho_extent place = {plot->x_m, plot->x_m, plot->y_m, plot->y_m};
+        const struct rho_window_bins under = rho_window_bins_under(scan, &place);
 
         assert_in_range(i, scan->bin_start[bin], scan->bin_start[bin + 1] - 1);
         assert_int_equal(under.column_first, under.column_last);
         assert_int_equal(under.row_first * scan->bins_x + under.column_first, bin);
     }
-    const struct rho_window_bins all =
-        rho_window_bins_under(scan, -INFINITY, INFINITY, -INFINITY, INFINITY);
+    const struct rho_extent plane = {-INFINITY, INFINITY, -INFINITY, INFINITY};
+    const struct rho_window_bins all = rho_window_bins_under(scan, &plane);
     assert_int_equal(all.column_first, 0);
     assert_int_equal(all.column_last, scan->bins_x - 1);
     assert_int_equal(all.row_first, 0);
@@ -638,6 +648,7 @@ int main(void)
         cmocka_unit_test(sigmas_are_stored_with_twelve_bits),
         cmocka_unit_test(the_nearest_plot_uses_covariance_height_and_range_rate),
         cmocka_unit_test(stored_covariances_follow_the_line_of_sight),
+        cmocka_unit_test(a_lone_scans_extent_is_that_of_its_plots),
         cmocka_unit_test(an_extent_grows_with_its_points),
         cmocka_unit_test(each_plot_is_stored_in_the_bin_of_its_place),
         cmocka_unit_test(the_next_sector_of_a_turn_continues_its_scan),

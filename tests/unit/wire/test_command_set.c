@@ -87,8 +87,11 @@ static void each_setting_changes_its_field_only(void **state)
     assert_int_equal(settings.coast_scans_max, 9);
     assert_int_equal(set_field(RHO_MESSAGE_SETTING_WORK_MAX, 70000.0f), RHO_OK);
     assert_int_equal(settings.work_max, 70000);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_STANDING, 1.0f), RHO_OK);
+    assert_int_equal(settings.standing, RHO_STANDING_TARGETS);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_STANDING, 2.0f), RHO_ERROR_CONFIG);
     assert_null(rho_command_setting_name(0));
-    assert_null(rho_command_setting_name(18));
+    assert_null(rho_command_setting_name(19));
     assert_null(rho_command_setting_name(-1));
 }
 
@@ -118,7 +121,7 @@ static void values_out_of_range_are_answered_with_the_range(void **state)
     assert_int_equal(answer.fault_field, 0);
     assert_int_equal(set_field(0, 1.0f), RHO_ERROR_VALUE);
     assert_int_equal(answer.applies, 0);
-    assert_int_equal(set_field(18, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(set_field(19, 1.0f), RHO_ERROR_VALUE);
     assert_int_equal(set_field(-3, 1.0f), RHO_ERROR_VALUE);
 }
 

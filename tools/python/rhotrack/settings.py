@@ -40,7 +40,8 @@ class Settings:
         known = [ffi.string(one.name).decode() for one in _parameters(_handle(NULL))]
         return cls(**{**{name: float(f"{getattr(of_kind, name):.7g}")
                          for name, _ in ffi.typeof(of_kind[0]).fields
-                         if name in known and name != "scan_interval_s"}, **parameters})
+                         if name in known and name not in ("scan_interval_s", "standing")},
+                      "standing": ("clutter", "targets")[of_kind.standing], **parameters})
 
     def check(self) -> None:
         """Raises Error where parameters contradict one another, as v_min_mps above v_max_mps."""

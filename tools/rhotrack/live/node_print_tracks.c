@@ -13,6 +13,7 @@
 #include "base/common.h"
 #include "io/csv/tracks_writer.h"
 #include "live/node_sensor_warnings.h"
+#include "pipeline/learned_report.h"
 
 #define DEG_PER_RAD 57.29577951308232
 
@@ -187,14 +188,16 @@ static void print_node_and_table_head(const struct node_core *core, const char *
 
     fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     fprintf(out,
-            "%" PRIu32 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; scans: "
+            "%" PRIu32 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; echoes "
+            "that stand: %u; scans: "
             "%" PRIu32 " lost, %" PRIu32 " out of order, %" PRIu32 " dropped, %" PRIu32
             " bad; %" PRIu32 " bad messages\033[K\n",
             node_core_node_counters(core)->steps, node_core_mean_step_us(core),
             count_tracks_with_status(report, RHO_TRACK_CONFIRMED),
             count_tracks_with_status(report, RHO_TRACK_COASTING),
-            count_tracks_with_status(report, RHO_TRACK_TENTATIVE), losses.lost, losses.out_of_order,
-            losses.dropped, assembler->scans_bad, assembler->messages_bad);
+            count_tracks_with_status(report, RHO_TRACK_TENTATIVE),
+            learned_report_num_standing(&node_core_tracker_state(core)->clutter_map), losses.lost,
+            losses.out_of_order, losses.dropped, assembler->scans_bad, assembler->messages_bad);
     print_bad_sensors(core, out);
     fprintf(out, "\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status",
             "x km", "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");

@@ -7,6 +7,7 @@
 
 #include "base/common.h"
 #include "live/node_loss_counts.h"
+#include "pipeline/learned_report.h"
 
 static void write_family_head(FILE *out, const char *name, const char *type, const char *help)
 {
@@ -162,6 +163,7 @@ static void write_tracker_counters(FILE *out, const struct prometheus_metrics_so
 
 static void write_track_counts(FILE *out, const struct prometheus_metrics_source *source)
 {
+    const struct rho_tracker *tracker = node_core_tracker_state(source->core);
     static const char *const names[RHO_NUM_TRACK_STATUS] = {NULL, "tentative", "confirmed",
                                                             "coasting"};
     const struct rho_report *report = node_core_last_report(source->core);
@@ -174,6 +176,8 @@ static void write_track_counts(FILE *out, const struct prometheus_metrics_source
     for (int status = RHO_TRACK_TENTATIVE; status < RHO_NUM_TRACK_STATUS; status++) {
         fprintf(out, "rhotrack_tracks{status=\"%s\"} %u\n", names[status], counts[status]);
     }
+    write_single_value(out, "echoes_standing", "gauge", "Echoes that stand and are clutter.",
+                       (double)learned_report_num_standing(&tracker->clutter_map));
 }
 
 static void write_time_histogram(FILE *out, const char *name, const char *help,

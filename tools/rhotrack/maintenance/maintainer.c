@@ -336,6 +336,19 @@ static void count_fates(struct maintainer *maintainer, const struct rho_scan *sc
     }
 }
 
+/* Its target exists and is visible, whatever was missed: no miss ends the track or lowers pd. */
+static void keep_track(struct rho_tracker *tracker, int64_t time_us)
+{
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        tracker->tracks[i].visible = 1.0f;
+        tracker->tracks[i].hidden = 0.0f;
+        tracker->tracks[i].lived_us = time_us;
+    }
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        tracker->sensors[i].blind = 0.0f;
+    }
+}
+
 int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
                     const struct rho_sensor *sensor, double log_density, struct random *random)
 {
@@ -363,6 +376,7 @@ int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
                     sensor ? (double)sensor->pd : (double)maintainer->tracker.config.pd,
                     log_density);
     }
+    keep_track(&maintainer->tracker, shown.time_us);
     must_succeed(rho_tracker_step(&maintainer->tracker, NULL, &shown, &maintainer->report), "step");
     row = maintainer->report.num_tracks > 0 ? maintainer->report.tracks[0].plot
                                             : start_or_restart(maintainer, &shown, sensor);

@@ -19,6 +19,18 @@ static void print_learned_walls(const struct rho_reflector_learning *walls, FILE
     }
 }
 
+unsigned learned_report_num_standing(const struct rho_clutter_map *map)
+{
+    const struct rho_echo *echo;
+    uint32_t place = 0;
+    unsigned count = 0;
+
+    while ((echo = rho_clutter_map_next_known(map, &place))) {
+        count += rho_clutter_map_is_echo_standing(echo) != 0;
+    }
+    return count;
+}
+
 void learned_report_print(const struct rho_tracker *tracker,
                           const struct rho_reflector_learning *walls, FILE *to)
 {
@@ -45,6 +57,9 @@ void learned_report_print(const struct rho_tracker *tracker,
         }
     }
     print_learned_walls(walls, to);
+    if (learned_report_num_standing(&tracker->clutter_map) > 0) {
+        fprintf(to, ", echoes that stand: %u", learned_report_num_standing(&tracker->clutter_map));
+    }
 }
 
 struct cJSON *learned_report_sensors_json(const struct rho_tracker *tracker)

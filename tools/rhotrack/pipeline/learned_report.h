@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * learned_report: reports what the tracker has learned of its sensors (noise, pd, Doppler notch)
- * and of walls.
+ * learned_report: reports what the tracker has learned of its sensors (noise, pd, Doppler notch),
+ * of walls, and of echoes that stand.
  */
 #ifndef RHOTRACK_TOOL_LEARNED_REPORT_H
 #define RHOTRACK_TOOL_LEARNED_REPORT_H
@@ -12,11 +12,14 @@
 #include "rhotrack/tracker.h"
 
 /*
- * Prints learned values of sensors that differ from the stated ones, and learned walls (walls NULL:
- * none), each after a comma, as part of a summary line.
+ * Prints learned values of sensors that differ from the stated ones, learned walls (walls NULL:
+ * none), and how many echoes stand, each after a comma, as part of a summary line.
  */
 void learned_report_print(const struct rho_tracker *tracker,
                           const struct rho_reflector_learning *walls, FILE *to);
+
+/* Number of known echoes in the clutter map that stand. */
+unsigned learned_report_num_standing(const struct rho_clutter_map *map);
 
 /* Learned values of each sensor as a JSON list; the caller owns the list. */
 struct cJSON;

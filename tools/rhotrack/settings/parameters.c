@@ -42,6 +42,8 @@ static const char *parameter_choices(enum parameter_id id)
         return "passive|passive-paper";
     case PARAMETER_GATE:
         return "best|hough|nearest|none";
+    case PARAMETER_STANDING:
+        return "clutter|targets";
     case PARAMETER_INPUT_MODEL:
         return "literal|physical";
     case PARAMETER_ASTERIX_SCANS:

@@ -83,13 +83,15 @@
       "units of work, a scan (20 to 90 instructions each), tracks first; 0: no limit")             \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
       "misses in a row that end a track; one of 16 hits is in doubt for 2.4 times as many")        \
+    X(STANDING, "standing", "-", 0, 0, 1, 1, 1,                                                    \
+      "what never moved is clutter, or may be a target, where v_min_mps is 0")                     \
     X(LATE_MAX_S, "late_max_s", "s", 20, 0, 60, 0, 1,                                              \
       "older scans update tracks where they are no older than the newest by this")                 \
     X(LEARN_NOISE_MIN, "learn_noise_min", "-", 0.7, 0.1, 1, 0, 0,                                  \
       "plots' sigmas as learned: least share of those stated that is used; 1: never less")         \
     X(LEARN_NOISE_MAX, "learn_noise_max", "-", 4, 1, 10, 0, 0,                                     \
       "the same: the most; 1: never more")                                                         \
-    X(LEARN_PD_MIN, "learn_pd_min", "-", 0.5, 0.1, 1, 0, 0,                                        \
+    X(LEARN_PD_MIN, "learn_pd_min", "-", 0.1, 0.1, 1, 0, 0,                                        \
       "pd as learned by range: least share of that stated; 1: as stated")                          \
     X(LEARN_REFLECTORS, "learn_reflectors", "-", 1, 0, 1, 1, 1,                                    \
       "walls that show targets twice are learned; 0: those of reflectors alone are known")         \

@@ -65,7 +65,7 @@ static bool push_and_test_turn_continues(struct turning_sensor *turning,
             return false;
         }
         turning->window = must_alloc(sizeof *turning->window);
-        if (rho_window_init(turning->window, sizeof *turning->window, 1, NULL, 0) != RHO_OK) {
+        if (rho_window_init(turning->window, sizeof *turning->window, 1, NULL) != RHO_OK) {
             fail(EXIT_RUNTIME, "turns: the library refuses a window");
         }
     }
