@@ -145,11 +145,10 @@ struct rho_settings_fault {
  *   coast_scans_max             5        5      10      10      8      20
  *   standing              CLUTTER  CLUTTER TARGETS TARGETS TARGETS TARGETS
  *
- * Where a kind says nothing else: a target of pd 0.9 misses 5 looks in a row once in 1e5, so that 5
- * misses end a track; one false track an hour is what a person deletes by hand; range_min_m is what
- * the receiver needs behind the pulse. Elevations and range rates count where a scan measures them:
- * heights as well as azimuths, or a quarter of a beam of 5 degrees; range rates of coarse Doppler
- * filters. The other fields are those of rho_settings_default.
+ * Where a kind says nothing else: one false track an hour is what a person deletes by hand;
+ * range_min_m is what the receiver needs behind the pulse. Elevations and range rates count where
+ * a scan measures them: heights as well as azimuths, or a quarter of a beam of 5 degrees; range
+ * rates of coarse Doppler filters. The other fields are those of rho_settings_default.
  */
 enum rho_preset {
     /*

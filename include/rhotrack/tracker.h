@@ -135,7 +135,7 @@ struct rho_tracker_config {
     uint16_t coast_scans_max;
     uint8_t gate;     /* enum rho_tracker_gate */
     uint8_t planes;   /* gate hough: RHO_GATE_PLANE_... of the Hough transforms */
-    uint8_t standing; /* enum rho_tracker_standing */
+    uint32_t standing; /* enum rho_tracker_standing */
     /*
      * gates hough and nearest: input estimation; with is_estimated 0 a Kalman filter with white
      * acceleration of half accel_max for 1 s. Ignored where RHO_FILTERS has no input estimation
@@ -273,14 +273,13 @@ struct rho_tracker_pace {
     int64_t time_us;   /* time of the last such scan */
 };
 
+#define RHO_OCTANTS 8 /* of azimuth, from +x (east) on */
+
 /*
  * All that a tracker holds of one sensor. A sensor that is heard without a description has a row,
  * too, as long as there is room: a described sensor takes the place of the undescribed one that was
  * heard longest ago, and so does a new undescribed one.
  */
-/* Parts of a turn for which a sensor's P_D is learned: octants from +x (east) on. */
-#define RHO_OCTANTS 8
-
 struct rho_tracker_sensor {
     /* as described, with learned noise and notch; of an undescribed one sensor_id alone */
     struct rho_sensor sensor;
@@ -333,7 +332,7 @@ struct rho_tracker {
     struct rho_tracker_counters counters;
     struct rho_tracker_work work;
     struct rho_tracker_sensor sensors[RHO_MAX_SENSORS];
-    /* counts that fade in half an hour: tracks that misses ended early; that reached 16 hits */
+    /* counts that fade in half an hour: tracks found to be seldom seen; that reached 16 hits */
     float ended_early, established;
     /* of established tracks: scans lived, ends, returns of hidden targets */
     float lived, gone, returned;
@@ -473,10 +472,7 @@ struct rho_tracker_known {
     float resolution_range_sigmas, resolution_cross_sigmas;
 };
 
-/*
- * How often targets leave, are hidden and appear again: rates by scan interval of the slowest
- * sensor that sees a track, learned from established tracks over half an hour.
- */
+/* Rates of targets' lives by scan interval, as learned over half an hour (track_life.c). */
 struct rho_tracker_life {
     float death, hide, appear;
     float lived_scans; /* scans from which they were learned */

@@ -94,7 +94,7 @@ static float project_covariance(int n, const float *p, int num, const float *row
 enum rho_status rho_linalg_update_row(int n, float *x, float *p, int num, const float *row,
                                       float innovation, float variance)
 {
-    float spread[RHO_LINALG_MAX];
+    float spread[RHO_LINALG_MAX] = {0.0f};
     const float inverse =
         inverse_innovation_variance(project_covariance(n, p, num, row, spread), variance);
     if (!(inverse > 0.0f)) {

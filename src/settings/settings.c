@@ -85,7 +85,7 @@ void rho_settings_apply(const struct rho_settings *settings, struct rho_tracker_
         tracker->v_max_mps = settings->v_max_mps;
         tracker->accel_max_mps2 = settings->accel_max_mps2;
         tracker->coast_scans_max = settings->coast_scans_max;
-        tracker->standing = (uint8_t)settings->standing;
+        tracker->standing = settings->standing;
         tracker->work_max = settings->work_max;
         /* at most what a tracker accepts */
         tracker->late_max_s = rho_smaller(LATE_SCANS * settings->scan_interval_s, 60.0f);

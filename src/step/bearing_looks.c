@@ -203,9 +203,10 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         const float variance = total / hit;
         mean /= sum;
         mix.share = hit / sum - (square / sum - mean * mean) / variance;
-        mix.as_one.bearing_rad = rho_angle_wrap(
-            expected_bearing_rad(scan, track, mix.as_one.time_us) + mean / mix.share);
-        mix.as_one.sigma_rad = rho_sqrt(variance / mix.share - (variance - noise / hit));
+        const float share = rho_larger(mix.share, MIX_SHARE_MIN);
+        mix.as_one.bearing_rad =
+            rho_angle_wrap(expected_bearing_rad(scan, track, mix.as_one.time_us) + mean / share);
+        mix.as_one.sigma_rad = rho_sqrt(variance / share - (variance - noise / hit));
     }
     return mix;
 }
@@ -289,6 +290,7 @@ void rho_step_take_frame(struct step *step)
     /* the look is again the whole frame, of no sensor */
     look->bearings = 0;
     look->sensor = 0;
+    rho_pd_open(look, 0);
     /*
      * A frame without a bearing of a track is one miss, however many sensors looked. The score is
      * left alone: the update has lowered it for each sensor.

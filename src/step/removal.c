@@ -2,10 +2,9 @@
 /*
  * removal: must this track or plot go? Contributors, in their order. Once plots are claimed: second
  * tracks of one target (second_plots.c; those of one body have ended as its plots were grouped).
- * Each track as it ages: unseen for too long or its place unknown (unseen_tracks.c), too fast
- * (speed_limits.c), score and misses (track_life.c), too slow. Before starts: plots at images of
- * tracks (reflectors.c) and in excluded areas (excluded_areas.c), which start no track. After
- * starts: tracks of images.
+ * Each track as it ages: its life (track_life.c), unseen for too long or its place unknown
+ * (unseen_tracks.c), too fast (speed_limits.c), too slow. Before starts: plots at images of tracks
+ * (reflectors.c) and in excluded areas (excluded_areas.c). After starts: tracks of images.
  */
 #include "phases.h"
 

@@ -122,6 +122,9 @@ static int split_track(struct step *step, unsigned row, const struct body_side s
         }
         leaves.status = was.status;
         leaves.was_confirmed = was.was_confirmed;
+        if (leaves.score_mnat < tracker->confirm_mnat) { /* it lives on as a start would */
+            leaves.score_mnat = tracker->confirm_mnat;
+        }
         (void)!rho_step_admit(step, &leaves, tracker->confirm_mnat);
     }
     return 1;

@@ -2,12 +2,12 @@
 /*
  * counted_pd: the P_D of a sensor by its looks at confirmed tracks, and by octant of azimuth.
  *
- * A look counts the probability that a track's target was visible, and that of a hit. The stated
- * P_D counts as a few looks beside them, so that a sensor that sees less than it states, or does so
- * in a sector, takes it out on itself and not on the tracks.
+ * The stated P_D counts as a few looks beside them, so that a sensor that sees less than it states,
+ * or does so in a sector, takes it out on itself and not on the tracks.
  */
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
+#include "sensors.h"
 #include "sight.h"
 
 void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit)
@@ -23,7 +23,7 @@ void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row)
     const float least = look->tracker->config.learn_pd_min * pd;
     if (row && look->tracker->config.learn_pd_min < 1.0f) {
         pd = (row->hits + STATED_LOOKS * pd) / (row->looks + STATED_LOOKS);
-        pd = rho_smaller(rho_larger(pd, least), PD_MOST);
+        pd = rho_larger(rho_smaller(pd, PD_MOST), least);
     }
     look->log_pd = rho_log(pd);
     look->log_miss = rho_log(1.0f - pd);
@@ -46,8 +46,8 @@ struct detection rho_pd_detection(const struct rho_look *look, const struct rho_
         return elsewhere;
     }
     const unsigned octant = octant_of(look, track);
-    const float ratio = (look->row->octant_hits[octant] + OCTANT_HITS) /
-                        (look->row->octant_expected[octant] + OCTANT_HITS);
+    const float ratio = (rho_larger(look->row->octant_hits[octant], 0.0f) + OCTANT_HITS) /
+                        (rho_larger(look->row->octant_expected[octant], 0.0f) + OCTANT_HITS);
     if (ratio > 1.0f - OCTANT_SAME && ratio < 1.0f + OCTANT_SAME) {
         return elsewhere;
     }
@@ -56,13 +56,20 @@ struct detection rho_pd_detection(const struct rho_look *look, const struct rho_
 }
 
 void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
-                        float hit)
+                        float ratio)
 {
+    const struct detection ring =
+        rho_learning_detection(look, track, (struct detection){look->log_pd, look->log_miss});
+    const float pd = rho_exp(rho_pd_detection(look, track, ring).log_pd);
+    const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd) / ratio, 0.0f);
     const unsigned octant = octant_of(look, track);
-    const float keep = look->row->octant_expected[octant] > COUNTED_LOOKS_MAX / 4.0f ? 0.5f : 1.0f;
     float *expected = &look->row->octant_expected[octant];
     float *hits = &look->row->octant_hits[octant];
-    *expected = keep * *expected + visible * rho_exp(look->log_pd);
+    const float keep = *expected > COUNTED_LOOKS_MAX / 4.0f ? 0.5f : 1.0f;
+    if (track->blind_percent > BLIND_PERCENT_MAX) {
+        return;
+    }
+    *expected = keep * *expected + visible * rho_exp(ring.log_pd);
     *hits = keep * *hits + visible * hit;
     rho_pd_count(look->row, visible, hit);
 }

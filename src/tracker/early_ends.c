@@ -17,8 +17,7 @@
  *
  *      e = 3.6 + ln(10 (D - W - sqrt(D) / 2) / (G + 2))
  *
- * on: one in ten of the confirmed tracks will be false (Wald). W is the number that
- * false_tracks_per_hour allows, and half a standard deviation of D may be chance.
+ * on: one in ten of them will be false (Wald). W is what false_tracks_per_hour allows.
  */
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
@@ -37,7 +36,7 @@ void rho_evidence_update(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_look *look = &step->look;
-    if (!(tracker->ended_early + tracker->established > 0.0f)) {
+    if (!(tracker->ended_early + tracker->established + tracker->lived > 0.0f)) {
         tracker->counted_us = look->time_us; /* no track was counted yet: nothing to fade */
     } else if (look->time_us > tracker->counted_us) {
         const float dt_s = rho_seconds_between(tracker->counted_us, look->time_us);

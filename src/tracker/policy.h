@@ -272,14 +272,13 @@
 /* Scans that weigh as much. Half: few tracks set the rates. Twice: they are learned in hours. */
 #define LIFE_PRIOR_SCANS (2.0f * LIFETIME_SCANS)
 /*
- * Mean time for which a target is hidden, over coast_scans_max scan intervals. Half: targets that
- * come back get a new track. Twice: lost tracks of turning targets stay beside new ones.
+ * Mean time of hiding over coast_scans_max scan intervals. Half: returning targets get new tracks.
+ * Twice: lost tracks of turning targets stay beside new ones.
  */
 #define HIDDEN_SHARE 0.7f
 /*
- * Odds of existence of a track whose score is at the confirm threshold; ln of the largest factor on
- * them, as a start may be of an image or a ghost, which the score does not know. Half: one miss
- * hides a new track. Twice: tracks of clutter are shown for one miss longer.
+ * Odds of existence at the confirm threshold; ln of the largest factor on them, as the score knows
+ * no images. Half: one miss hides a new track. Twice: clutter is shown for one miss longer.
  */
 #define CONFIRMED_ODDS 5.0f
 #define START_MAX_NAT 1.5f
@@ -290,25 +289,25 @@
 #define SHOWN 0.48f
 #define SHOWN_AGAIN 0.8f
 /*
- * Below it a track ends; one that is not established. Half: tracks that nothing is left of take
- * the first plots of new targets. Twice: returning targets get new tracks.
+ * Below it a track ends; one that is not established. Half: it takes a new target's first plots.
+ * Twice: returning targets get new tracks.
  */
 #define ENDED 0.05f
 #define ENDED_NEW (2.0f * ENDED)
 /*
- * Share of targets that a look can see above which all count as visible. Half: clutter draws tracks
- * of hidden targets away. Twice: each look costs two logarithms a track, for the same tracks.
+ * Share of targets that a look can see above which it is 1. Half: clutter draws tracks of hidden
+ * targets away. Twice: each look costs two logarithms a track, for the same tracks.
  */
 #define SURELY_VISIBLE 0.95f
 /*
- * Probability that a look is blind, and that another blind one follows. Half: of a blind look fewer
- * tracks are spared. Twice: that of a sensor with two tracks, which both leave, counts as blind.
+ * Probability that a look is blind, and that another one follows. Half: fewer tracks are spared.
+ * Twice: two tracks that both leave are spared, too.
  */
 #define BLIND_PRIOR 0.005f
 #define BLIND_STAYS 0.8f
 /*
- * Clutter plots expected in the gate of an updated estimate above which its place is unknown, and
- * not shown. Half: tracks in dense clutter are hidden. Twice: places off by the gate are shown.
+ * Clutter plots expected in an updated gate above which the place is unknown, and not shown. Half:
+ * tracks in dense clutter are hidden. Twice: places off by the gate are shown.
  */
 #define PLACE_CLUTTER_MAX 1.0f
 

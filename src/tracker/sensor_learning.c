@@ -16,10 +16,8 @@
  * other. Where the noise is more than about 2.5 times the stated one, tracks seem to manoeuvre all
  * the time and teach little: `rhotrack calibrate` finds such noise.
  *
- * P_D: of all looks at a track that follow a look with a plot, the share with a plot. A look
- * without a plot is counted when the track is seen again, so that targets that have gone count no
- * misses. Of several misses in a row the first alone is counted, so that the learned pd is rather
- * too high; it is never above the stated one.
+ * P_D by ring: of all looks that follow a look with a plot, the share with a plot. One without is
+ * counted when the track is seen again, the first of several alone. It is never above the stated.
  */
 #include "policy.h"
 #include "rhotrack/detail/approx.h"

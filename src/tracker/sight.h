@@ -17,9 +17,9 @@ struct detection {
 void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row);
 /* Counts a look at a track, `visible` of which a hit is expected, as a hit by a probability. */
 void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit);
-/* The same of a look at a track by plots, for the track's octant, too. */
+/* The same of plots, for the track's octant, too; ratio: G of track_life.c, which tells a hit. */
 void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
-                        float hit);
+                        float ratio);
 struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track,
                                   struct detection elsewhere);
 

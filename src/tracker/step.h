@@ -56,7 +56,7 @@ static inline int rho_life_is_established(const struct rho_track *track)
 }
 /* Fades the counts of tracks, learns the manoeuvre interval, and sets needed_nat and miss_nat. */
 void rho_evidence_update(struct step *step);
-/* True of a track that is not established and has less evidence than needed_nat. */
+/* True of a track that has less evidence than needed_nat. */
 int rho_evidence_is_lacking(const struct step *step, const struct rho_track *track);
 /* Counts a track that becomes established in this step, or is found to be seldom seen. */
 void rho_evidence_count(const struct step *step, struct rho_track *track);

@@ -35,8 +35,9 @@
 #include "sight.h"
 #include "step.h"
 
-/* Odds beyond which a look surely sees. */
+/* Odds beyond which a look surely sees; largest probability of hiding or of detection. */
 #define SURELY_SEES 1e12f
+#define SURE_MISS 0.999f
 
 void rho_life_end(const struct step *step, struct rho_track *track)
 {
@@ -106,15 +107,9 @@ struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker)
     };
 }
 
-/*
- * Share of targets like this one that the look can see: not hidden, and the look not blind. A track
- * that was never confirmed has all to show: its misses count in full, so that clutter's ends soon.
- */
+/* Share of targets like this one that the look can see: not hidden, and the look not blind. */
 static float seeing_share(const struct rho_look *look, const struct rho_track *track)
 {
-    if (!track->was_confirmed) {
-        return 1.0f;
-    }
     const float both = track->visible + track->hidden;
     const float sees = look->row ? 1.0f - look->row->blind : 1.0f;
     const float share = both > 0.0f ? sees * track->visible / both : 1.0f;
@@ -126,6 +121,7 @@ static void pass_time(struct rho_tracker *tracker, const struct rho_look *look,
                       const struct rho_tracker_life *rates, struct rho_track *track)
 {
     const float dt_s = rho_seconds_between(track->lived_us, look->time_us);
+    track->appeared = 0.0f;
     if (dt_s > 0.0f) {
         const float interval_s = rho_unseen_interval_s(look, track);
         const float scans = interval_s > 0.0f ? dt_s / interval_s : 1.0f;
@@ -138,7 +134,8 @@ static void pass_time(struct rho_tracker *tracker, const struct rho_look *look,
         const float stays = rho_exp(-(rates->hide + rates->appear) * scans);
         /* the score of a track that was never confirmed has to fall by all misses */
         const float is_hidden =
-            track->was_confirmed ? settled + (was_hidden - settled) * stays : 0.0f;
+            track->was_confirmed ? rho_smaller(settled + (was_hidden - settled) * stays, SURE_MISS)
+                                 : 0.0f;
         track->hidden = exists * is_hidden;
         track->visible = exists * (1.0f - is_hidden);
         track->appeared = was_hidden * (1.0f - settled) * (1.0f - stays) / (1.0f - is_hidden);
@@ -163,7 +160,8 @@ struct detection rho_life_detection(const struct rho_track *track, struct detect
 {
     if (track->seen_share < 1.0f) {
         const float pd = track->seen_share * rho_exp(visible.log_pd);
-        return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
+        const float miss = rho_exp(visible.log_miss); /* in a notch not 1 - pd */
+        return (struct detection){rho_log(pd), rho_log(1.0f - track->seen_share * (1.0f - miss))};
     }
     return visible;
 }
@@ -179,8 +177,7 @@ static int was_looked_at(const struct rho_track *track)
  */
 static float visible_gain(const struct rho_track *track, float ratio)
 {
-    return track->seen_share < 1.0f ? rho_larger((ratio - 1.0f) / track->seen_share, -PD_MOST)
-                                    : ratio - 1.0f;
+    return rho_larger((ratio - 1.0f) / track->seen_share, -SURE_MISS);
 }
 
 /* Probability that the look was blind, by all established tracks (top of file). */
@@ -204,10 +201,13 @@ static float often_nat(float ratio)
     return rho_log(ratio / (1.0f + SELDOM * (ratio - 1.0f)));
 }
 
-/* Evidence that the track is of a target, and not of an object that is seldom seen. */
+/* Counts for P_D; and evidence that it is a target, not an object that is seldom seen. */
 static void count_seen_or_missed(struct rho_tracker *tracker, const struct rho_look *look,
                                  struct rho_track *track, float ratio, float blind)
 {
+    if (look->row && track->was_confirmed) {
+        rho_pd_count_place(look, track, (1.0f - blind) * track->visible, ratio);
+    }
     if (ratio > 1.0f) {
         track->seen_nat += often_nat(ratio);
         tracker->returned += rho_life_is_established(track) ? track->appeared : 0.0f;
@@ -230,12 +230,7 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             const float ratio = limited_exp(track->look_nat);
             const float gain = visible_gain(track, ratio);
             const float sum = 1.0f + track->visible * gain;
-            if (look->row && look->scan && look->teaches && track->was_confirmed) {
-                const float miss = 1.0f - track->seen_share * rho_exp(look->log_pd);
-                rho_pd_count_place(look, track, (1.0f - blind) * track->visible,
-                                   rho_larger(1.0f - miss / ratio, 0.0f));
-            }
-            if (look->scan) { /* bearings alone do not tell one object from another */
+            if (look->scan && look->teaches) { /* bearings do not tell one object from another */
                 count_seen_or_missed(tracker, look, track, ratio, blind);
             }
             /* a blind look spares a track for as long as it may coast; else it is rather gone */
@@ -281,7 +276,7 @@ void rho_life_doubt_places(struct rho_tracker *tracker, const struct rho_look *l
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         const float *p = track->kalman.covariance; /* usually it is as narrow as a plot */
-        if (rho_look_has_in_view(look, row) &&
+        if (track->time_us == look->time_us && !rho_track_is_frozen(track) &&
             p[RHO_AT(0, 0)] + p[RHO_AT(1, 1)] > 2.0f * look->sigma_max_m * look->sigma_max_m &&
             rho_clutter_in_gate(look, track) > PLACE_CLUTTER_MAX) {
             track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status,
@@ -292,7 +287,8 @@ void rho_life_doubt_places(struct rho_tracker *tracker, const struct rho_look *l
 
 int rho_life_is_sound(const struct rho_track *track)
 {
-    return rho_is_within(track->visible, 0.0f, 1.0f) && rho_is_within(track->hidden, 0.0f, 1.0f) &&
+    return rho_is_within(track->visible + track->hidden, 0.0f, 1.00001f) &&
+           rho_is_within(track->visible, 0.0f, 1.0f) && rho_is_within(track->hidden, 0.0f, 1.0f) &&
            rho_is_within(track->appeared, 0.0f, 1.0f) &&
            rho_is_within(track->seen_share, 1e-30f, 1.0f) &&
            rho_is_within(track->look_nat, -1e9f, 1e9f) &&

@@ -57,7 +57,9 @@ check 'less where they were said' json stdout "o['learned'][0]['sigma_range_fact
 run track fine/plots.csv --config bare.ini --set learn_noise_min=1 --set learn_pd_min=1 --json
 check 'and nothing where that is off' json stdout \
     "o['learned'][0]['sigma_range_factor'] == 1 and len(set(o['learned'][0]['pd'])) == 1"
-run track half_stated/plots.csv --config half_stated/scenario.ini
+# noise is learned from 100 innovations
+run simulate half_stated_scene.json --seed 2 --set duration_s=840 -o longer
+run track longer/plots.csv --config longer/scenario.ini
 check 'the summary says what is not as stated' grep -q \
     "sensor 1's noise is .* times as stated, across .* pd is down to 0" stderr
 
@@ -120,6 +122,6 @@ END
     run calibrate first.csv --set v_max_mps=12 --set accel_max_mps2=0.5 -o first.ini
     run calibrate second.csv --config first.ini --set v_max_mps=12 --set accel_max_mps2=0.5 --json
     check "harbour $scene: squared innovations of the second half" json stdout \
-        '0.75 < o["radars"][0]["innovations"] < 1.3'
+        '0.75 < o["radars"][0]["innovations"] < 1.5'
 done
 finish

@@ -82,7 +82,7 @@
     X(WORK_MAX, "work_max", "-", RHO_WORK_MAX, 0, 1e8, 1, 1,                                       \
       "units of work, a scan (20 to 90 instructions each), tracks first; 0: no limit")             \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
-      "misses in a row that end a track; one of 16 hits is in doubt for 2.4 times as many")        \
+      "scans for which a track may coast, as its target may be hidden or out of sight")            \
     X(STANDING, "standing", "-", 0, 0, 1, 1, 1,                                                    \
       "what never moved is clutter, or may be a target, where v_min_mps is 0")                     \
     X(LATE_MAX_S, "late_max_s", "s", 20, 0, 60, 0, 1,                                              \
@@ -92,7 +92,7 @@
     X(LEARN_NOISE_MAX, "learn_noise_max", "-", 4, 1, 10, 0, 0,                                     \
       "the same: the most; 1: never more")                                                         \
     X(LEARN_PD_MIN, "learn_pd_min", "-", 0.1, 0.1, 1, 0, 0,                                        \
-      "pd as learned by range: least share of that stated; 1: as stated")                          \
+      "pd as learned: least share of that stated; 1: as stated")                                   \
     X(LEARN_REFLECTORS, "learn_reflectors", "-", 1, 0, 1, 1, 1,                                    \
       "walls that show targets twice are learned; 0: those of reflectors alone are known")         \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
