@@ -111,7 +111,7 @@ struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker)
 static float seeing_share(const struct rho_look *look, const struct rho_track *track)
 {
     const float both = track->visible + track->hidden;
-    const float sees = look->row ? 1.0f - look->row->blind : 1.0f;
+    const float sees = look->row && track->was_confirmed ? 1.0f - look->row->blind : 1.0f;
     const float share = both > 0.0f ? sees * track->visible / both : 1.0f;
     return share < SURELY_VISIBLE ? rho_larger(share, 1e-6f) : 1.0f;
 }

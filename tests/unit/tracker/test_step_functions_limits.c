@@ -354,7 +354,8 @@ static void places_that_clutter_would_fill_are_not_shown(void **state)
         (void)add_plot(20000.0, 0.0, plot_sigma_m);
         scan.num_plots = 1;
         at.look.sigma_max_m = (float)plot_sigma_m;
-        at.look.in_view[0] = i == 4 ? 0u : 3u; /* a track that is not looked at is left alone */
+        /* a track that is not looked at is left alone */
+        track->time_us = at.look.time_us - (i == 4 ? 1 : 0);
         rho_life_doubt_places(&tracker, &at.look);
         assert_int_equal(track->status,
                          i == 1 || i == 3 ? RHO_TRACK_TENTATIVE : RHO_TRACK_CONFIRMED);
