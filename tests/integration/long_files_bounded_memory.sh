@@ -114,7 +114,7 @@ check 'a quotation mark without a second one' says 2 \
     'rhotrack: quote.csv:3: a row of more than 1 MiB: a quoted cell has no end'
 run track quote.csv --keep-going -o tracks.csv
 check 'with --keep-going its row alone is skipped' matches "$(cat stderr)" \
-    'rhotrack: 300 scans, 3001 plots, *, 1 bad rows skipped; *'
+    'rhotrack: 300 scans, 3001 plots, *, 1 bad rows skipped*; *'
 { printf 't_s,sensor_id,x_m,y_m\n0,1,2,3\n#'; head -c 1100000 /dev/zero | tr '\0' 'c'; } >line.csv
 run track line.csv
 check 'a line without an end' says 2 'rhotrack: line.csv:3: a line of more than 1 MiB'
