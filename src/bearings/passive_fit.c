@@ -45,8 +45,8 @@ static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas
 }
 
 /*
- * Normal equations of the nearest bearings within the gate, or with a gate of 0 of the claimed ones
- * at any distance; with weak priors of position and speed.
+ * Normal equations of the nearest bearings within the gate, or of the claimed ones (claim: not
+ * NULL) at any distance; with weak priors of position and speed.
  */
 static struct equations equations_of_bearings(const struct rho_passive_search *search,
                                               const float state_m[N], float gate,
@@ -59,9 +59,9 @@ static struct equations equations_of_bearings(const struct rho_passive_search *s
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                gate > 0.0f ? rho_passive_match_nearest(search, k, s, state_m, include_claimed)
-                            : rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
-            if (nearest.bearing >= 0 && (!(gate > 0.0f) || is_in_gate(&nearest, gate))) {
+                claim ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
+                      : rho_passive_match_nearest(search, k, s, state_m, include_claimed);
+            if (nearest.bearing >= 0 && (claim || is_in_gate(&nearest, gate))) {
                 add_bearing_equation(search, k, &nearest, &equations);
             }
         }
