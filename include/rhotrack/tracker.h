@@ -133,8 +133,8 @@ struct rho_tracker_config {
      * the sensors that saw it last
      */
     uint16_t coast_scans_max;
-    uint8_t gate;     /* enum rho_tracker_gate */
-    uint8_t planes;   /* gate hough: RHO_GATE_PLANE_... of the Hough transforms */
+    uint8_t gate;      /* enum rho_tracker_gate */
+    uint8_t planes;    /* gate hough: RHO_GATE_PLANE_... of the Hough transforms */
     uint32_t standing; /* enum rho_tracker_standing */
     /*
      * gates hough and nearest: input estimation; with is_estimated 0 a Kalman filter with white
