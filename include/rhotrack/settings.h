@@ -106,7 +106,7 @@ struct rho_settings {
     /* [step] scans of the window in which a target needs a plot: 3 .. scans; 0: from the clutter */
     uint16_t min_scans;
     uint16_t coast_scans_max; /* [step] scans for which a track may coast: 1 .. 255 */
-    uint16_t standing; /* [step] enum rho_tracker_standing: may tracks be of what never moved? */
+    uint32_t standing; /* [step] enum rho_tracker_standing: may tracks be of what never moved? */
     /* [step] tracks of clutter alone that are accepted: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
     /*

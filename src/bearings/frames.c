@@ -39,7 +39,11 @@ enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
     struct rho_frames_config kept = *config;
     memset(frames, 0, sizeof *frames);
     frames->magic = FRAMES_MAGIC;
-    frames->config = kept;
+    frames->config.tolerance_us = kept.tolerance_us; /* no padding of the caller's */
+    frames->config.jump_max_us = kept.jump_max_us;
+    frames->config.follow_scans = kept.follow_scans;
+    frames->config.silent_frames = kept.silent_frames;
+    frames->config.sensors_min = kept.sensors_min;
     frames->closed_us = INT64_MIN;
     return RHO_OK;
 }

@@ -95,10 +95,7 @@
  */
 #define STATED_LOOKS 4.0f
 #define COUNTED_LOOKS_MAX 2000.0f
-/*
- * Hits that an octant's P_D as the sensor's weighs; ratio of both that is as good as 1. Half:
- * chance makes octants. Twice: a sector that sees less is found late.
- */
+/* Hits beside an octant's; ratio that is 1. Half: chance makes octants. Twice: found late. */
 #define OCTANT_HITS 20.0f
 #define OCTANT_SAME 0.1f
 /* Largest learned P_D. Half: hits are worth less. Twice: one miss ends a track. */
@@ -299,10 +296,7 @@
  * targets away. Twice: each look costs two logarithms a track, for the same tracks.
  */
 #define SURELY_VISIBLE 0.95f
-/*
- * Probability that a look is blind, and that another one follows. Half: fewer tracks are spared.
- * Twice: two tracks that both leave are spared, too.
- */
+/* Probability of a blind look, and of another. Half, twice: fewer tracks are spared, or lost ones. */
 #define BLIND_PRIOR 0.005f
 #define BLIND_STAYS 0.8f
 /*

@@ -39,7 +39,7 @@ static const struct setting_field *find_field(int number)
         [RHO_MESSAGE_SETTING_COAST_SCANS_MAX] = FIELD(coast_scans_max, AS_UINT16, STEP),
         [RHO_MESSAGE_SETTING_FALSE_TRACKS_PER_HOUR] = FIELD(false_tracks_per_hour, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_WORK_MAX] = FIELD(work_max, AS_UINT32, STEP),
-        [RHO_MESSAGE_SETTING_STANDING] = FIELD(standing, AS_UINT16, STEP),
+        [RHO_MESSAGE_SETTING_STANDING] = FIELD(standing, AS_UINT32, STEP),
     };
     return number > 0 && number <= RHO_MESSAGE_SETTING_STANDING ? &fields[number] : 0;
 }

@@ -32,7 +32,7 @@
     FIELD(SCANS, scans, uint16_t)                                                                  \
     FIELD(MIN_SCANS, min_scans, uint16_t)                                                          \
     FIELD(COAST_SCANS_MAX, coast_scans_max, uint16_t)                                              \
-    FIELD(STANDING, standing, uint16_t)                                                            \
+    FIELD(STANDING, standing, uint32_t)                                                            \
     FIELD(WORK_MAX, work_max, uint32_t)
 
 struct rho_settings parameters_to_settings(const struct parameters *parameters)
