@@ -296,7 +296,7 @@
  * targets away. Twice: each look costs two logarithms a track, for the same tracks.
  */
 #define SURELY_VISIBLE 0.95f
-/* Probability of a blind look, and of another. Half, twice: fewer tracks are spared, or lost ones. */
+/* Probability of a blind look; of another. Half: fewer tracks are spared. Twice: lost ones, too. */
 #define BLIND_PRIOR 0.005f
 #define BLIND_STAYS 0.8f
 /*
