@@ -35,7 +35,7 @@ must_fail 'a function that states nothing' types.h 's/Stack: 100 bytes at most w
     'rho_is_coordinate states no stack'
 
 # The path of a function adds up to its bytes.
-tools/gates/stack.py --path rho_kalman_predict | awk '
+tools/gates/stack.py --path rho_tracker_step | awk '
     NR == 1 {says = $2}
     NR > 1 {sum += $1}
     END {if (NR < 3 || sum != says) {print "stack.py --path does not add up"; exit 1}}'
