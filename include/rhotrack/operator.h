@@ -44,10 +44,10 @@ struct rho_operator_start {
 
 /*
  * Starts a track at a place, as if the sensor that was heard last had seen it there. It is
- * confirmed at once, or tentative where too many tracks end early (tracker.h), and ends as others
- * do where no plots follow. It counts as a target's, though it may never move: until it ends,
- * echoes of the clutter map where it is are no clutter, and it may be slower than v_min. A full
- * tracker gives up its lowest tentative track for it.
+ * confirmed at once, or tentative where many objects are seldom seen (tracker.h), and ends as
+ * others do where no plots follow. It counts as a target's, though it may never move: until it
+ * ends, echoes of the clutter map where it is are no clutter, and it may be slower than v_min. A
+ * full tracker gives up its lowest tentative track for it.
  * Errors: NULL, STATE (not initialised, no step so far, the report is not the last step's), VALUE
  * (a number outside its range), CAPACITY (no room), and those of rho_track_start. Cost: the report.
  * Stack: 3.1 KB.

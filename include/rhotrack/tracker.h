@@ -333,7 +333,7 @@ struct rho_tracker {
     struct rho_tracker_work work;
     struct rho_tracker_sensor sensors[RHO_MAX_SENSORS];
     /* counts that fade in half an hour: tracks found to be seldom seen; that reached 16 hits */
-    float ended_early, established;
+    float seldom, established;
     /* of established tracks: scans lived, ends, returns of hidden targets */
     float lived, gone, returned;
     /* seconds of established tracks, fading, too: not surely manoeuvring; surely manoeuvring */

@@ -5,7 +5,7 @@
 
 /*
  * Counts a miss of a track without a plot where the scan looked, and lowers the score; hypotheses
- * have taken the miss from their score already. Returns 1 where the track is missed.
+ * have taken the miss from their score already.
  */
 static void count_miss_of_scan(const struct rho_look *look, struct rho_track *track, unsigned row)
 {

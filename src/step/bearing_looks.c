@@ -45,9 +45,10 @@ static int does_frame_cover(const struct step *step, const struct rho_track *tra
     return 0;
 }
 
-static void open_look(struct rho_tracker *tracker, const struct rho_passive *passive,
-                      struct rho_look *look, const struct rho_bearing_scan *scan, uint32_t first,
-                      struct rho_sensor *sensor)
+/* Returns the row of the sensor; NULL: there is no room for it. */
+static struct rho_tracker_sensor *
+open_look(struct rho_tracker *tracker, const struct rho_passive *passive, struct rho_look *look,
+          const struct rho_bearing_scan *scan, uint32_t first, struct rho_sensor *sensor)
 {
     struct rho_tracker_sensor *row = rho_sensors_hear(tracker, scan->sensor_id);
     *sensor = sensor_of_scan(tracker, passive, scan);
@@ -68,6 +69,7 @@ static void open_look(struct rho_tracker *tracker, const struct rho_passive *pas
     look->num_gated = num_bearings_with_fates(look, scan, first);
     look->fates += first < RHO_MAX_PLOTS ? first : 0;
     rho_pd_open(look, row);
+    return row;
 }
 
 static void validate_bearings(struct rho_tracker *tracker, const struct rho_look *look)
@@ -86,8 +88,8 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
 
 /* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
 static int score_bearing(const struct rho_look *look, const struct rho_gate *gate,
-                         const struct rho_track *track, uint32_t i, struct rho_gate_result *at,
-                         float *gain_nat)
+                         const struct rho_track *track, float log_pd, uint32_t i,
+                         struct rho_gate_result *at, float *gain_nat)
 {
     const struct rho_bearing_scan *scan = look->bearings;
     struct rho_bearing bearing = scan->bearings[i];
@@ -97,22 +99,23 @@ static int score_bearing(const struct rho_look *look, const struct rho_gate *gat
         !rho_gate_test_bearing(gate, &bearing, scan->x_m, scan->y_m, at)) {
         return 0;
     }
-    *gain_nat = rho_look_detection(look, track).log_pd -
-                0.5f * (RHO_LOG_TWO_PI + at->log_det + at->distance2) - look->log_false_bearings;
+    *gain_nat =
+        log_pd - 0.5f * (RHO_LOG_TWO_PI + at->log_det + at->distance2) - look->log_false_bearings;
     return 1;
 }
 
 static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *look, unsigned row)
 {
     const struct rho_track *track = &tracker->tracks[row];
-    const float log_miss = rho_look_detection(look, track).log_miss;
+    const struct detection seen = rho_look_detection(look, track);
     struct rho_gate_result at;
     struct rho_gate gate;
     float gain_nat;
     rho_score_open_gate(look, track, 0, &gate);
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (score_bearing(look, &gate, track, i, &at, &gain_nat) && gain_nat > log_miss) {
-            rho_score_add_pair(tracker, row, i, gain_nat - log_miss);
+        if (score_bearing(look, &gate, track, seen.log_pd, i, &at, &gain_nat) &&
+            gain_nat > seen.log_miss) {
+            rho_score_add_pair(tracker, row, i, gain_nat - seen.log_miss);
         }
     }
 }
@@ -161,13 +164,14 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
 {
     const struct rho_bearing_scan *scan = look->bearings;
     const struct rho_track *track = &tracker->tracks[row];
+    const struct detection seen = rho_look_detection(look, track);
     struct bearing_mix mix = {.as_one = {.time_us = track->time_us,
                                          .sensor_id = scan->sensor_id,
                                          .x_m = scan->x_m,
                                          .y_m = scan->y_m,
                                          .row = -1}};
     float sum = rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)
-                    ? rho_exp(rho_look_detection(look, track).log_miss)
+                    ? rho_exp(seen.log_miss)
                     : 1.0f;
     float hit = 0.0f, mean = 0.0f, square = 0.0f, noise = 0.0f, total = 0.0f, best = 0.0f;
     struct rho_gate gate;
@@ -176,7 +180,7 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         const struct rho_bearing *bearing = &scan->bearings[i];
         struct rho_gate_result at;
         float gain_nat;
-        if (!score_bearing(look, &gate, track, i, &at, &gain_nat)) {
+        if (!score_bearing(look, &gate, track, seen.log_pd, i, &at, &gain_nat)) {
             continue;
         }
         const float weight = free_share(&tracker->assignment, row, i) *
@@ -215,11 +219,10 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
  * Counts the bearings of confirmed tracks that the look covers, before it changes any: a sensor
  * that sees less than it states must not take it out on the tracks.
  */
-static void learn_pd(struct rho_tracker *tracker, struct rho_look *look)
+static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
+                     struct rho_tracker_sensor *row)
 {
     const struct rho_bearing_scan *scan = look->bearings;
-    const unsigned own = rho_sensors_row(tracker, scan->sensor_id);
-    struct rho_tracker_sensor *row = own < tracker->num_rows ? &tracker->sensors[own] : 0;
     for (unsigned i = 0; row && i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
         if (track->was_confirmed && track->status != RHO_TRACK_FREE &&
@@ -244,7 +247,7 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
         const int32_t gain_mnat = rho_score_to_mnat(mix.gain_nat);
         unclaimed -= mix.hit;
         if (!(mix.share > MIX_SHARE_MIN)) {
-            rho_track_lower_score(track, -gain_mnat);
+            rho_track_add_score(track, gain_mnat);
         } else if (rho_track_update_bearing(track, &mix.as_one, &look->model, gain_mnat) !=
                    RHO_OK) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
@@ -271,7 +274,8 @@ void rho_step_take_frame(struct step *step)
     rho_life_pass(tracker, look);
     for (uint32_t i = 0; i < step->frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[i];
-        open_look(tracker, step->passive, look, scan, first, &sensor);
+        struct rho_tracker_sensor *own =
+            open_look(tracker, step->passive, look, scan, first, &sensor);
         validate_bearings(tracker, look);
         /* both counts are within the capacities: nothing to refuse */
         (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
@@ -281,7 +285,7 @@ void rho_step_take_frame(struct step *step)
             }
         }
         rho_score_solve(tracker);
-        learn_pd(tracker, look);
+        learn_pd(tracker, look, own);
         update_by_bearings(tracker, look);
         first = rho_count(first, scan->num_bearings);
         look->num_gated = num_gated;

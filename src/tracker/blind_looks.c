@@ -71,8 +71,7 @@ struct detection rho_notch_detection(const struct rho_look *look, const struct r
 
 void rho_notch_coast(const struct rho_look *look, struct rho_track *track)
 {
-    track->status =
-        (uint8_t)rho_track_next_status((enum rho_track_status)track->status, RHO_TRACK_MISS);
+    rho_track_apply_event(track, RHO_TRACK_MISS);
     if (look->teaches) {
         track->seen_us = look->time_us;
     }

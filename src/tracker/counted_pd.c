@@ -10,11 +10,17 @@
 #include "sensors.h"
 #include "sight.h"
 
+/* Adds to a pair of counts, which are halved where there are more than `most`. */
+static void add_counts(float *of, float *hits, float most, float more, float more_hits)
+{
+    const float keep = *of > most ? 0.5f : 1.0f;
+    *of = keep * *of + more;
+    *hits = keep * *hits + more_hits;
+}
+
 void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit)
 {
-    const float keep = row->looks > COUNTED_LOOKS_MAX ? 0.5f : 1.0f;
-    row->looks = keep * row->looks + visible;
-    row->hits = keep * row->hits + visible * hit;
+    add_counts(&row->looks, &row->hits, COUNTED_LOOKS_MAX, visible, visible * hit);
 }
 
 void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row)
@@ -58,18 +64,15 @@ struct detection rho_pd_detection(const struct rho_look *look, const struct rho_
 void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
                         float ratio)
 {
+    if (track->blind_percent > BLIND_PERCENT_MAX) {
+        return;
+    }
     const struct detection ring =
         rho_learning_detection(look, track, (struct detection){look->log_pd, look->log_miss});
     const float pd = rho_exp(rho_pd_detection(look, track, ring).log_pd);
     const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd) / ratio, 0.0f);
     const unsigned octant = octant_of(look, track);
-    float *expected = &look->row->octant_expected[octant];
-    float *hits = &look->row->octant_hits[octant];
-    const float keep = *expected > COUNTED_LOOKS_MAX / 4.0f ? 0.5f : 1.0f;
-    if (track->blind_percent > BLIND_PERCENT_MAX) {
-        return;
-    }
-    *expected = keep * *expected + visible * rho_exp(ring.log_pd);
-    *hits = keep * *hits + visible * hit;
+    add_counts(&look->row->octant_expected[octant], &look->row->octant_hits[octant],
+               COUNTED_LOOKS_MAX / 4.0f, visible * rho_exp(ring.log_pd), visible * hit);
     rho_pd_count(look->row, visible, hit);
 }

@@ -217,7 +217,7 @@
  */
 #define UNLOOKED 4.0f
 
-/* early_ends.c */
+/* seldom_seen.c */
 
 /*
  * Detection probability of a seldom seen object over that of a target; and the evidence of a hit,
@@ -230,16 +230,16 @@
  * Twice: targets are confirmed later where aircraft come and go.
  */
 #define TRUE_PER_FALSE 10.0f
-/* Prior number of established tracks. Half: early ends weigh more. Twice: more false ones come. */
+/* Prior number of established tracks. Half: the others weigh more. Twice: more false ones come. */
 #define ESTABLISHED_PRIOR 2.0f
 /*
- * Standard deviations by which the count of tracks that ended early may exceed its mean. Half:
- * chance asks for evidence. Twice: clear excess is found later.
+ * Standard deviations by which the count of seldom seen tracks may exceed its mean. Half: chance
+ * asks for evidence. Twice: clear excess is found later.
  */
 #define EXCESS_SIGMAS 0.5f
 /*
- * Time in which the counts of ended and established tracks fade to 1/e. Half: counts are small, and
- * vary by chance. Twice: after a front has passed, confirmation stays slow for an hour.
+ * Time in which the counts of seldom seen and of established tracks fade to 1/e. Half: they are
+ * small, and vary by chance. Twice: after a front has passed, confirmation stays slow for an hour.
  */
 #define MEMORY_S 1600.0f
 /*

@@ -11,8 +11,8 @@ struct detection {
 };
 
 /*
- * counted_pd.c: sets log_pd and log_miss by the look's sensor, or by the default pd, and by
- * what was counted of it. row: NULL, nothing.
+ * counted_pd.c: sets log_pd and log_miss by the look's sensor, or the default pd, and by what was
+ * counted of it. row: NULL, nothing.
  */
 void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row);
 /* Counts a look at a track, `visible` of which a hit is expected, as a hit by a probability. */
@@ -31,9 +31,9 @@ struct detection rho_pd_detection(const struct rho_look *look, const struct rho_
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
 int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track);
-/* The same of a target that is surely visible. */
-struct detection rho_look_visible(const struct rho_look *look, const struct rho_track *track);
+/* Detection of the track's target; of one that is surely visible. */
 struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track);
+struct detection rho_look_visible(const struct rho_look *look, const struct rho_track *track);
 
 /* track_life.c: detection of a track whose target may be hidden */
 struct detection rho_life_detection(const struct rho_track *track, struct detection visible);

@@ -48,7 +48,7 @@ void rho_life_end(const struct step *step, struct rho_track *track);
 /* Removes the FREE tracks from the table, with their rows of the assignment. */
 void rho_life_remove_ended(struct rho_tracker *tracker);
 
-/* early_ends.c: more evidence for new tracks where many end early */
+/* seldom_seen.c: more evidence for new tracks where many objects are seldom seen */
 #define RHO_ESTABLISHED_HITS 16
 static inline int rho_life_is_established(const struct rho_track *track)
 {

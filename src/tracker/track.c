@@ -40,18 +40,18 @@ enum rho_track_status rho_track_next_status(enum rho_track_status status,
     return (enum rho_track_status)next[status][event];
 }
 
-static void apply_event_to_status(struct rho_track *track, enum rho_track_event event)
+void rho_track_apply_event(struct rho_track *track, enum rho_track_event event)
 {
     track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status, event);
 }
 
-static void add_score(struct rho_track *track, int32_t mnat)
+void rho_track_add_score(struct rho_track *track, int32_t gain_mnat)
 {
-    int64_t score = (int64_t)track->score_mnat + mnat;
+    int64_t score = (int64_t)track->score_mnat + gain_mnat;
     score = score > RHO_SCORE_MAX_MNAT ? RHO_SCORE_MAX_MNAT : score;
     score = score < -RHO_SCORE_MAX_MNAT ? -RHO_SCORE_MAX_MNAT : score;
     track->score_mnat = (int32_t)score;
-    track->look_nat += 0.001f * (float)mnat;
+    track->look_nat += 0.001f * (float)gain_mnat;
     if (track->score_mnat > track->score_max_mnat) {
         track->score_max_mnat = track->score_mnat;
     }
@@ -69,13 +69,8 @@ void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat)
     track->misses_in_row =
         (uint8_t)(track->misses_in_row < UINT8_MAX ? track->misses_in_row + 1 : UINT8_MAX);
     track->plot = -1;
-    add_score(track, -loss_mnat);
-    apply_event_to_status(track, RHO_TRACK_MISS);
-}
-
-void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat)
-{
-    add_score(track, -loss_mnat);
+    rho_track_add_score(track, -loss_mnat);
+    rho_track_apply_event(track, RHO_TRACK_MISS);
 }
 
 static float root_mean_variance(const struct rho_kalman *kalman, int first)
@@ -330,7 +325,7 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     for (unsigned i = 0; RHO_SECTORS && i + 1 < num_plots; i++) {
         start.is_shared |= (uint8_t)(plots[i].sensor_id != last->sensor_id);
     }
-    apply_event_to_status(&start, RHO_TRACK_START);
+    rho_track_apply_event(&start, RHO_TRACK_START);
     *track = start;
     return RHO_OK;
 }
@@ -363,7 +358,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     }
     rho_track_merge_estimates(&start, time_us, model);
     store_velocity_after_hit(&start, 1);
-    apply_event_to_status(&start, RHO_TRACK_START);
+    rho_track_apply_event(&start, RHO_TRACK_START);
     *track = start;
     return RHO_OK;
 }
@@ -453,8 +448,8 @@ enum rho_status rho_track_update_by_plot(struct rho_track *track, const struct r
     store_claimed_plot(track, later_update_time_us(track, plot->time_us), plot->sensor_id,
                        plot->row);
     count_hit(track);
-    add_score(track, gain_mnat);
-    apply_event_to_status(track, RHO_TRACK_UPDATE);
+    rho_track_add_score(track, gain_mnat);
+    rho_track_apply_event(track, RHO_TRACK_UPDATE);
     return RHO_OK;
 }
 
@@ -472,15 +467,16 @@ enum rho_status rho_track_commit_scan(struct rho_track *track,
     }
     track->plot = -1;
     const float most_nat = 0.001f * (float)RHO_SCORE_MAX_MNAT;
-    add_score(track, (int32_t)(1000.0f * (outcome.gain_nat < -most_nat  ? -most_nat
-                                          : outcome.gain_nat > most_nat ? most_nat
-                                                                        : outcome.gain_nat)));
+    rho_track_add_score(track,
+                        (int32_t)(1000.0f * (outcome.gain_nat < -most_nat  ? -most_nat
+                                             : outcome.gain_nat > most_nat ? most_nat
+                                                                           : outcome.gain_nat)));
     if (outcome.row >= 0) {
         store_claimed_plot(
             track, later_update_time_us(track, scan->time_us + scan->plots[outcome.row].offset_us),
             sensor_id, outcome.row);
         count_hit(track);
-        apply_event_to_status(track, RHO_TRACK_UPDATE);
+        rho_track_apply_event(track, RHO_TRACK_UPDATE);
     }
     return RHO_OK;
 }
@@ -538,7 +534,7 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
         track->time_us = bearing->time_us;
     }
     if (bearing->row < 0) { /* of several bearings, none of which is claimed */
-        add_score(track, gain_mnat);
+        rho_track_add_score(track, gain_mnat);
         return RHO_OK;
     }
     store_velocity_after_hit(track, track->plot < 0);
@@ -546,7 +542,7 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
         count_hit(track);
     }
     store_claimed_plot(track, bearing->time_us, bearing->sensor_id, bearing->row);
-    add_score(track, gain_mnat);
-    apply_event_to_status(track, RHO_TRACK_UPDATE);
+    rho_track_add_score(track, gain_mnat);
+    rho_track_apply_event(track, RHO_TRACK_UPDATE);
     return RHO_OK;
 }

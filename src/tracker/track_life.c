@@ -18,14 +18,14 @@
  *
  * Whose miss is it? Where a sensor sees nothing, all its tracks are missed at once. A look is blind
  * with a small probability, and says nothing then; given all looks at established tracks the odds
- * of it are prior / (1 - prior) over the product of their N. Another one probably follows, with a
- * lower P_D. Targets may leave together: tracks are spared for coast_scans_max scans at most.
+ * of it are prior / (1 - prior) over the product of their N. Another one probably follows, scored
+ * with a lower P_D. Targets may leave together: tracks are spared for coast_scans_max scans.
  *
  * Rates of death and hiding are learned over half an hour: scans that established tracks lived,
  * ends, and expected returns. The longest hides end, too, so hiding stays above its first rate.
  *
  * From the probabilities follow a track's status, once its score has confirmed it, and its end.
- * What the chain does not know stands beside it: early_ends.c, unseen_tracks.c, and places here.
+ * What the chain does not know stands beside it: seldom_seen.c, unseen_tracks.c, and places here.
  */
 #include "clutter.h"
 #include "plots.h"
@@ -46,7 +46,7 @@ void rho_life_end(const struct step *step, struct rho_track *track)
         report->ended[report->num_ended++] = track->track_id;
     }
     rho_track_free_hypotheses(track, &step->look.model);
-    track->status = RHO_TRACK_FREE;
+    rho_track_apply_event(track, RHO_TRACK_DROP);
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
 
@@ -267,8 +267,7 @@ void rho_life_apply(const struct step *step, struct rho_track *track, int32_t co
     track->was_confirmed |= (uint8_t)is_shown;
     tracker->counters.tracks_confirmed =
         rho_count(tracker->counters.tracks_confirmed, is_shown && !was_confirmed ? 1 : 0);
-    track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status,
-                                                   is_shown ? RHO_TRACK_CONFIRM : RHO_TRACK_DOUBT);
+    rho_track_apply_event(track, is_shown ? RHO_TRACK_CONFIRM : RHO_TRACK_DOUBT);
 }
 
 void rho_life_doubt_places(struct rho_tracker *tracker, const struct rho_look *look)
@@ -279,8 +278,7 @@ void rho_life_doubt_places(struct rho_tracker *tracker, const struct rho_look *l
         if (track->time_us == look->time_us && !rho_track_is_frozen(track) &&
             p[RHO_AT(0, 0)] + p[RHO_AT(1, 1)] > 2.0f * look->sigma_max_m * look->sigma_max_m &&
             rho_clutter_in_gate(look, track) > PLACE_CLUTTER_MAX) {
-            track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status,
-                                                           RHO_TRACK_DOUBT);
+            rho_track_apply_event(track, RHO_TRACK_DOUBT);
         }
     }
 }

@@ -113,7 +113,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
            rho_is_within(tracker->lived, 0.0f, 1e9f) && rho_is_within(tracker->gone, 0.0f, 1e9f) &&
            rho_is_within(tracker->returned, 0.0f, 1e9f) &&
-           rho_is_within(tracker->ended_early, 0.0f, 1e9f) &&
+           rho_is_within(tracker->seldom, 0.0f, 1e9f) &&
            rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&

@@ -139,6 +139,7 @@ struct rho_track {
 /* Status that follows by the diagram; an event without an arrow changes nothing. Constant cost. */
 enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                             enum rho_track_event event);
+void rho_track_apply_event(struct rho_track *track, enum rho_track_event event);
 
 /* Motion model of targets, and the filter of new tracks. Objects pointed to stay the caller's. */
 struct rho_track_model {
@@ -259,8 +260,8 @@ RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
                                                         const struct rho_track_model *model,
                                                         int32_t gain_mnat);
 
-/* Subtracts loss_mnat >= 0 from the score, without counting a miss. Constant cost. */
-void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat);
+/* Adds evidence of either sign to the score, without counting a hit or miss. Constant cost. */
+void rho_track_add_score(struct rho_track *track, int32_t gain_mnat);
 
 /* Counts a miss: subtracts loss_mnat >= 0 from the score; confirmed tracks coast. Constant cost. */
 void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat);

@@ -33,6 +33,16 @@ static size_t count_all_plots(const struct scene_run *run)
     return count;
 }
 
+/* Counts the plots of targets by their number, `each` of which count as one. */
+static void count_plots_by_target(const struct scene_run *run, int each, size_t *seen)
+{
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            seen[run->scans[i].plots[k].target_id / each]++;
+        }
+    }
+}
+
 /*
  * Checks errors of all plots against the truth at their own times, in sigmas, and the antenna's
  * azimuth.
@@ -195,11 +205,7 @@ static void pd_falls_with_range(void **state)
     size_t seen[3] = {0};
 
     assert_int_equal(run->num_scans, 2000);
-    for (size_t i = 0; i < run->num_scans; i++) {
-        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
-            seen[run->scans[i].plots[k].target_id]++;
-        }
-    }
+    count_plots_by_target(run, 1, seen);
     assert_share(seen[0], 2000, 0.9);
     assert_share(seen[1], 2000, 0.7);
     assert_share(seen[2], 2000, 0.5);
@@ -258,11 +264,7 @@ static void random_fades_suppress_their_share_of_plots(void **state)
         &scene, 1);
     size_t seen[2] = {0};
 
-    for (size_t i = 0; i < run->num_scans; i++) {
-        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
-            seen[run->scans[i].plots[k].target_id / 20]++;
-        }
-    }
+    count_plots_by_target(run, 20, seen);
     assert_int_equal(seen[0], 20 * 10000);
     /* some of 1333 fades of 60 s overlap: the free share is exp(-6 * 60 / 3600) */
     assert_near((double)seen[1] / 200000, exp(-0.1), 0.01);
@@ -287,11 +289,7 @@ static void fades_count_in_their_part_of_the_coverage(void **state)
         &scene, 1);
     size_t seen[4] = {0};
 
-    for (size_t i = 0; i < run->num_scans; i++) {
-        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
-            seen[run->scans[i].plots[k].target_id]++;
-        }
-    }
+    count_plots_by_target(run, 1, seen);
     assert_share(seen[0], 4000, 0.45);
     assert_share(seen[1], 4000, 0.25); /* in both: the lower one */
     assert_share(seen[2], 4000, 0.95);

@@ -710,7 +710,7 @@ static void test_invalid_fields_with_a_right_checksum_are_refused(void **state)
     NONSENSE(0, rho_tracker, hypotheses.model.memory_s, float, nan);
     NONSENSE(0, rho_tracker, hypotheses.step.calm_begins, float, 2.0f);
     NONSENSE(0, rho_tracker, hypotheses.step.quiet_density, float, nan);
-    NONSENSE(0, rho_tracker, ended_early, float, nan);
+    NONSENSE(0, rho_tracker, seldom, float, nan);
     NONSENSE(0, rho_tracker, established, float, -1.0f);
     NONSENSE(0, rho_tracker, straight_s, float, nan);
     NONSENSE(0, rho_tracker, turning_s, float, -1.0f);

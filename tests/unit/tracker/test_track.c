@@ -62,6 +62,9 @@ static void status_changes_follow_the_table_of_events(void **state)
             assert_int_equal(
                 rho_track_next_status((enum rho_track_status)status, (enum rho_track_event)event),
                 expected[status][event]);
+            struct rho_track track = {.status = (uint8_t)status};
+            rho_track_apply_event(&track, (enum rho_track_event)event);
+            assert_int_equal(track.status, expected[status][event]);
         }
     }
     assert_int_equal(rho_track_next_status((enum rho_track_status)77, RHO_TRACK_DROP), 77);
@@ -281,7 +284,7 @@ static void hits_and_misses_of_a_look_add_up(void **state)
     assert_float_equal(track.look_nat, -2.3f, 1e-5f);
     assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 7100), RHO_OK);
     assert_float_equal(track.look_nat, 4.8f, 1e-5f);
-    rho_track_lower_score(&track, 5000);
+    rho_track_add_score(&track, -5000);
     assert_float_equal(track.look_nat, -0.2f, 1e-5f);
 }
 

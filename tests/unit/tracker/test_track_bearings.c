@@ -217,14 +217,14 @@ static void a_lowered_score_is_no_miss(void **state)
     (void)state;
     struct rho_track track = start_track(), before;
     before = track;
-    rho_track_lower_score(&track, 2303);
+    rho_track_add_score(&track, -2303);
     assert_int_equal(track.score_mnat, 6000 - 2303);
     assert_float_equal(track.look_nat, -2.303f, 1e-5f);
     before.score_mnat = track.score_mnat;
     before.look_nat = track.look_nat;
     assert_memory_equal(&track, &before, sizeof track);
     for (int i = 0; i < 3; i++) {
-        rho_track_lower_score(&track, INT32_MAX); /* the score stays at its limit */
+        rho_track_add_score(&track, -INT32_MAX); /* the score stays at its limit */
     }
     assert_int_equal(track.score_mnat, -1000000000);
     assert_int_equal(track.score_max_mnat, 6000);

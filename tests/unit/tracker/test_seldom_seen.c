@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Where tracks often end early, a new one needs more evidence to be confirmed. Figures are tested
- * with tracks made by hand, with the private header.
+ * Where many objects are seldom seen, a new one needs more evidence to be confirmed. Figures are
+ * tested with tracks made by hand, with the private header.
  */
 #include "../../src/tracker/clutter.h"
 #include "../../src/tracker/plots.h"
@@ -77,7 +77,7 @@ static void where_tracks_last_they_are_confirmed_at_three_plots(void **state)
         assert_true(count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 20) >=
                     18);
     }
-    assert_true(tracker.ended_early < 1.0f);
+    assert_true(tracker.seldom < 1.0f);
     assert_true(tracker.established > 8.0f);
 }
 
@@ -92,7 +92,7 @@ static void a_few_short_lived_tracks_change_nothing(void **state)
     assert_true(count_turns_reporting_short_lived_target(-20000.0, -20000.0, 20) >= 18);
 }
 
-static void where_tracks_end_early_more_hits_are_needed(void **state)
+static void where_objects_are_seldom_seen_more_hits_are_needed(void **state)
 {
     int first = 0, last = 0;
     (void)state;
@@ -106,7 +106,7 @@ static void where_tracks_end_early_more_hits_are_needed(void **state)
         first += n < 4 ? reported : 0;
         last += n >= 20 ? reported : 0;
     }
-    assert_true(tracker.ended_early > 10.0f);
+    assert_true(tracker.seldom > 10.0f);
     assert_true(first >= 8);   /* two turns at least for each of the first four */
     assert_int_equal(last, 0); /* the last one was never confirmed */
     const int reported = count_turns_reporting_short_lived_target(-20000.0, -30000.0, 20);
@@ -124,11 +124,11 @@ static void short_lived_tracks_are_forgotten_after_a_while(void **state)
     for (int n = 0; n < 12; n++) {
         (void)count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 4);
     }
-    assert_true(tracker.ended_early > 6.0f);
+    assert_true(tracker.seldom > 6.0f);
     for (int k = 0; k < 1200; k++) {
         step_turn();
     }
-    assert_true(tracker.ended_early < 1.0f);
+    assert_true(tracker.seldom < 1.0f);
     assert_true(count_turns_reporting_short_lived_target(-20000.0, -30000.0, 20) >= 18);
 }
 
@@ -151,7 +151,7 @@ static void make_track(unsigned row, uint16_t hits, uint16_t misses)
 }
 
 /*
- * Formula at the head of early_ends.c, for tracks seen in 0.3 of a target's
+ * Formula at the head of seldom_seen.c, for tracks seen in 0.3 of a target's
  * looks, one in ten of all.
  */
 static void the_evidence_needed_equals_its_formula(void **state)
@@ -172,7 +172,7 @@ static void the_evidence_needed_equals_its_formula(void **state)
     make_track(2, 15, 5); /* not yet established, but almost, by its evidence */
     make_track(3, 7, 3);
     tracker.wanted_per_hour = 3.0f;
-    tracker.ended_early = 20.0f;
+    tracker.seldom = 20.0f;
     tracker.established = 4.0f;
     tracker.counted_us = 0;
     at.look.time_us = 400000000;
@@ -180,7 +180,7 @@ static void the_evidence_needed_equals_its_formula(void **state)
     const double kept = exp(-400.0 / 1600.0), ended = 20.0 * kept, established = 4.0 * kept;
     /* ten looks of the stated 0.8, and those at tracks of eight hits or more */
     const double pd = (8.0 + 100.0 + 16.0 + 15.0) / (10.0 + 120.0 + 21.0 + 20.0);
-    expect_close((double)tracker.ended_early, ended);
+    expect_close((double)tracker.seldom, ended);
     expect_close((double)tracker.established, established);
     expect_close((double)at.miss_nat, log((1.0 - 0.3 * pd) / (1.0 - pd)));
     const double miss_nat = (double)at.miss_nat;
@@ -230,14 +230,14 @@ static void an_object_that_is_seldom_seen_counts_once(void **state)
     tracker.confirm_mnat = 5000;
     for (int i = 0; i < 3; i++) {
         struct rho_track *track = &tracker.tracks[0];
-        tracker.ended_early = 0.0f;
+        tracker.seldom = 0.0f;
         make_track(0, 3, 0);
         track->missed = (float)((4.0 * HIT_NAT + (i == 1 ? -0.01 : 0.01)) / 2.0);
         track->score_max_mnat = i == 2 ? 4999 : 5000;
         for (int scan = 0; scan < 3; scan++) {
             rho_evidence_count(&at, track);
         }
-        assert_true(tracker.ended_early == (i == 0 ? 1.0f : 0.0f));
+        assert_true(tracker.seldom == (i == 0 ? 1.0f : 0.0f));
         assert_int_equal(track->is_seldom, i == 0);
     }
 }
@@ -247,7 +247,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(where_tracks_last_they_are_confirmed_at_three_plots),
         cmocka_unit_test(a_few_short_lived_tracks_change_nothing),
-        cmocka_unit_test(where_tracks_end_early_more_hits_are_needed),
+        cmocka_unit_test(where_objects_are_seldom_seen_more_hits_are_needed),
         cmocka_unit_test(short_lived_tracks_are_forgotten_after_a_while),
         cmocka_unit_test(the_evidence_needed_equals_its_formula),
         cmocka_unit_test(a_track_is_established_with_its_sixteenth_plot),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * early_ends: where many tracks are of objects that are seldom seen, tracks need more evidence.
+ * seldom_seen: where many tracks are of objects that are seldom seen, tracks need more evidence.
  *
  * The track score compares a target with clutter that is independent from scan to scan. It does not
  * model objects that move as targets do and are seldom seen, as second-time-around echoes; they
@@ -36,12 +36,12 @@ void rho_evidence_update(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_look *look = &step->look;
-    if (!(tracker->ended_early + tracker->established + tracker->lived > 0.0f)) {
+    if (!(tracker->seldom + tracker->established + tracker->lived > 0.0f)) {
         tracker->counted_us = look->time_us; /* no track was counted yet: nothing to fade */
     } else if (look->time_us > tracker->counted_us) {
         const float dt_s = rho_seconds_between(tracker->counted_us, look->time_us);
         const float kept = rho_exp(-dt_s / MEMORY_S);
-        tracker->ended_early *= kept;
+        tracker->seldom *= kept;
         tracker->established *= kept;
         tracker->lived *= kept;
         tracker->gone *= kept;
@@ -58,7 +58,7 @@ void rho_evidence_update(struct step *step)
     for (unsigned i = 0; i < tracker->num_rows; i++) {
         sensors += tracker->sensors[i].pace.is_heard ? 1.0f : 0.0f;
     }
-    /* evidence that a miss takes from a track, by the hits and misses of established tracks */
+    /* evidence that a miss takes from a track, by those of tracks with TEACHER_HITS */
     const float pd = rho_exp(look->log_pd);
     float hits = PRIOR_LOOKS * pd, misses = PRIOR_LOOKS * (1.0f - pd);
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -79,8 +79,7 @@ void rho_evidence_update(struct step *step)
     }
     const float wanted =
         tracker->wanted_per_hour * rho_larger(sensors, 1.0f) * (MEMORY_S / 3600.0f);
-    const float excess =
-        tracker->ended_early - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->ended_early);
+    const float excess = tracker->seldom - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->seldom);
     const float odds =
         TRUE_PER_FALSE * excess / (tracker->established + almost + ESTABLISHED_PRIOR);
     /* wanted_per_hour is 0 where score_min_nat sets the threshold: no evidence is needed then */
@@ -102,6 +101,6 @@ void rho_evidence_count(const struct step *step, struct rho_track *track)
     if (!track->is_seldom && track->score_max_mnat >= tracker->confirm_mnat &&
         evidence_of_target(step, track) < SELDOM_NAT) {
         track->is_seldom = 1;
-        tracker->ended_early += 1.0f;
+        tracker->seldom += 1.0f;
     }
 }
