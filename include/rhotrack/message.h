@@ -63,6 +63,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_SETTING_ANSWER,
     RHO_MESSAGE_TYPE_SETTING,
     RHO_MESSAGE_TYPE_STATUS,
+    RHO_MESSAGE_TYPE_TRACK_LIFE,
     RHO_MESSAGE_TYPE_TRACK,
     RHO_MESSAGE_TYPE_TRUTH,
     RHO_MESSAGE_TYPE_WORK,
@@ -74,6 +75,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_CLUTTER_MAP,
     RHO_MESSAGE_TYPE_GHOST_MATRIX,
     RHO_MESSAGE_TYPE_HYPOTHESES,
+    RHO_MESSAGE_TYPE_LIFE,
     RHO_MESSAGE_TYPE_PEAK_LIST,
     RHO_MESSAGE_TYPE_PLANE,
     RHO_MESSAGE_TYPE_PLOT_SCAN,
@@ -802,6 +804,25 @@ RHO_MUST_CHECK enum rho_status rho_message_status_validate(
     const struct rho_message_status *message, struct rho_message_place *place);
 const char *rho_message_status_field(const struct rho_message_place *place);
 
+/* track_life_t: one track of a life_t: whether its target exists, and whether it is visible. */
+
+#define RHO_MESSAGE_TRACK_LIFE_FINGERPRINT UINT64_C(0x3de08f55ed583a47)
+#define RHO_MESSAGE_TRACK_LIFE_MAX_SIZE 20u
+
+struct rho_message_track_life {
+    int32_t track_id; /* identity of the track, as in track_t */
+    float existence; /* probability that the target exists, visible or hidden; range 0 .. 1 */
+    float visibility; /* probability that the target exists and is visible; range 0 .. 1 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_track_life_encode(
+    const struct rho_message_track_life *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_track_life_decode(
+    const uint8_t *data, size_t size, struct rho_message_track_life *message);
+RHO_MUST_CHECK enum rho_status rho_message_track_life_validate(
+    const struct rho_message_track_life *message, struct rho_message_place *place);
+const char *rho_message_track_life_field(const struct rho_message_place *place);
+
 /* track_t: one track of a track_list_t, at the list's time. */
 
 #define RHO_MESSAGE_TRACK_FINGERPRINT UINT64_C(0x07ff66dc5ae8b2bd)
@@ -1339,6 +1360,65 @@ RHO_MUST_CHECK enum rho_status rho_message_hypotheses_begin(
     const struct rho_message_hypotheses_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_hypotheses_add(
     struct rho_message_writer *writer, const struct rho_message_hypothesis *hypothese);
+
+/*
+ * life_t: lives of a tracker's targets: how often they leave, are hidden and return, as learned,
+ * and for each track whether its target exists. All tracks, or a part, once a second. Channel
+ * RHO_LIFE.
+ */
+
+#define RHO_MESSAGE_LIFE_CHANNEL "RHO_LIFE"
+#define RHO_MESSAGE_LIFE_FINGERPRINT UINT64_C(0xeee71746b1a39c0c)
+#define RHO_MESSAGE_LIFE_MAX_SIZE 1248u
+#define RHO_MESSAGE_LIFE_MAX_TRACKS 100
+
+struct rho_message_life {
+    /*
+     * time of the last scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000
+     */
+    int64_t utime;
+    int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    float death_rate; /* at which targets leave; range 0 .. 1 */
+    float hide_rate; /* at which visible targets are hidden; range 0 .. 1 */
+    float appear_rate; /* at which hidden targets are visible again; range 0 .. 2 */
+    /*
+     * scan intervals that established tracks lived, from which the rates of death and hiding come;
+     * old ones fade; range 0 .. 1e9
+     */
+    float lived_scans;
+    int16_t num_tracks_total; /* number of tracks in all parts of the list; range 0 .. 32767 */
+    int16_t part; /* number of this part of the list, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the list; an empty list has one; range 1 .. 32767 */
+    int16_t num_tracks; /* number of tracks in this part of the list */
+    struct rho_message_track_life tracks[RHO_MESSAGE_LIFE_MAX_TRACKS];
+};
+
+struct rho_message_life_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    float death_rate;
+    float hide_rate;
+    float appear_rate;
+    float lived_scans;
+    int16_t num_tracks_total;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_life_encode(
+    const struct rho_message_life *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_life_decode(
+    const uint8_t *data, size_t size, struct rho_message_life *message);
+RHO_MUST_CHECK enum rho_status rho_message_life_validate(
+    const struct rho_message_life *message, struct rho_message_place *place);
+const char *rho_message_life_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_life_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_life_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_life_add(
+    struct rho_message_writer *writer, const struct rho_message_track_life *track);
 
 /*
  * peak_list_t: the best candidates of the last search for new tracks, best first. Channel

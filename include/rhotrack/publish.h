@@ -158,6 +158,17 @@ int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
                         struct rho_message_learned *learned);
 
 /*
+ * Writes one part of the lives of the tracker's tracks (life_t): the rates of rho_tracker_life, and
+ * for each live track the probabilities that its target exists, and is visible.
+ *   part  from 0; part 0 is there without tracks, too
+ * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the
+ * message's bytes. Stack: 240 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_publish_life(const struct rho_tracker *tracker, int32_t step,
+                                                int32_t epoch, uint16_t part, uint8_t *buffer,
+                                                size_t capacity, size_t *size);
+
+/*
  * Number of messages (parts) of the known echoes in a tracker's clutter map; 1 where there are
  * none. Cost: RHO_MAX_ECHOES.
  */

@@ -230,6 +230,12 @@ static const struct member_name status_names[] = {
     {offsetof(struct rho_message_status, origin_alt_mm), "origin_alt_mm"},
 };
 
+static const struct member_name track_life_names[] = {
+    {offsetof(struct rho_message_track_life, track_id), "track_id"},
+    {offsetof(struct rho_message_track_life, existence), "existence"},
+    {offsetof(struct rho_message_track_life, visibility), "visibility"},
+};
+
 static const struct member_name track_names[] = {
     {offsetof(struct rho_message_track, track_id), "track_id"},
     {offsetof(struct rho_message_track, status), "status"},
@@ -396,6 +402,21 @@ static const struct member_name hypotheses_names[] = {
     {offsetof(struct rho_message_hypotheses, hypotheses), "hypotheses"},
 };
 
+static const struct member_name life_names[] = {
+    {offsetof(struct rho_message_life, utime), "utime"},
+    {offsetof(struct rho_message_life, scan), "scan"},
+    {offsetof(struct rho_message_life, epoch), "epoch"},
+    {offsetof(struct rho_message_life, death_rate), "death_rate"},
+    {offsetof(struct rho_message_life, hide_rate), "hide_rate"},
+    {offsetof(struct rho_message_life, appear_rate), "appear_rate"},
+    {offsetof(struct rho_message_life, lived_scans), "lived_scans"},
+    {offsetof(struct rho_message_life, num_tracks_total), "num_tracks_total"},
+    {offsetof(struct rho_message_life, part), "part"},
+    {offsetof(struct rho_message_life, num_parts), "num_parts"},
+    {offsetof(struct rho_message_life, num_tracks), "num_tracks"},
+    {offsetof(struct rho_message_life, tracks), "tracks"},
+};
+
 static const struct member_name peak_list_names[] = {
     {offsetof(struct rho_message_peak_list, utime), "utime"},
     {offsetof(struct rho_message_peak_list, scan), "scan"},
@@ -521,6 +542,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "setting_answer_t",
         "setting_t",
         "status_t",
+        "track_life_t",
         "track_t",
         "truth_t",
         "work_t",
@@ -532,6 +554,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "clutter_map_t",
         "ghost_matrix_t",
         "hypotheses_t",
+        "life_t",
         "peak_list_t",
         "plane_t",
         "plot_scan_t",
@@ -626,6 +649,11 @@ const char *rho_message_status_field(const struct rho_message_place *place)
     return place ? find_member_name(status_names, 35, place->offset) : "unknown";
 }
 
+const char *rho_message_track_life_field(const struct rho_message_place *place)
+{
+    return place ? find_member_name(track_life_names, 3, place->offset) : "unknown";
+}
+
 const char *rho_message_track_field(const struct rho_message_place *place)
 {
     return place ? find_member_name(track_names, 19, place->offset) : "unknown";
@@ -697,6 +725,14 @@ const char *rho_message_hypotheses_field(const struct rho_message_place *place)
         return find_member_name(hypothesis_names, 7, place->offset);
     }
     return place ? find_member_name(hypotheses_names, 15, place->offset) : "unknown";
+}
+
+const char *rho_message_life_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find_member_name(track_life_names, 3, place->offset);
+    }
+    return place ? find_member_name(life_names, 12, place->offset) : "unknown";
 }
 
 const char *rho_message_peak_list_field(const struct rho_message_place *place)

@@ -373,6 +373,21 @@ static const struct message_rules status_rules = {
     {status_ints, status_floats, 5, 1},
     {0, 0, 0, 0}};
 
+static const struct message_run track_life_runs[] = {
+    {offsetof(struct rho_message_track_life, track_id), 4, 3},
+};
+static const struct message_float_rule track_life_floats[] = {
+    {offsetof(struct rho_message_track_life, existence), 2, 0.0f, 1.0f},
+};
+static const struct message_format track_life_format = {
+    RHO_MESSAGE_TRACK_LIFE_FINGERPRINT,
+    {track_life_runs, 1, 12}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules track_life_rules = {
+    &track_life_format,
+    {0, track_life_floats, 0, 1},
+    {0, 0, 0, 0}};
+
 static const struct message_run track_runs[] = {
     {offsetof(struct rho_message_track, track_id), 4, 1},
     {offsetof(struct rho_message_track, status), 1, 1},
@@ -655,6 +670,34 @@ static const struct message_rules hypotheses_rules = {
     {hypotheses_ints, hypotheses_floats, 3, 3},
     {0, hypothesis_floats, 0, 3}};
 
+static const struct message_run life_runs[] = {
+    {offsetof(struct rho_message_life, utime), 8, 1},
+    {offsetof(struct rho_message_life, scan), 4, 6},
+    {offsetof(struct rho_message_life, num_tracks_total), 2, 3},
+};
+static const struct message_int_rule life_ints[] = {
+    {offsetof(struct rho_message_life, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_life, num_tracks_total), 2, 1, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_life, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_life, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_life, num_parts)},
+};
+static const struct message_float_rule life_floats[] = {
+    {offsetof(struct rho_message_life, death_rate), 2, 0.0f, 1.0f},
+    {offsetof(struct rho_message_life, appear_rate), 1, 0.0f, 2.0f},
+    {offsetof(struct rho_message_life, lived_scans), 1, 0.0f, 1000000000.0f},
+};
+static const struct message_format life_format = {
+    RHO_MESSAGE_LIFE_FINGERPRINT,
+    {life_runs, 3, 38}, {track_life_runs, 1, 12},
+    offsetof(struct rho_message_life, num_tracks),
+    offsetof(struct rho_message_life, tracks),
+    sizeof(struct rho_message_track_life), RHO_MESSAGE_LIFE_MAX_TRACKS};
+static const struct message_rules life_rules = {
+    &life_format,
+    {life_ints, life_floats, 4, 3},
+    {0, track_life_floats, 0, 1}};
+
 static const struct message_run peak_list_runs[] = {
     {offsetof(struct rho_message_peak_list, utime), 8, 1},
     {offsetof(struct rho_message_peak_list, scan), 4, 1},
@@ -889,6 +932,9 @@ typedef char ghost_matrix_head_fits[
 typedef char hypotheses_head_fits[
     offsetof(struct rho_message_hypotheses, not_sent) ==
     offsetof(struct rho_message_hypotheses_head, not_sent) ? 1 : -1];
+typedef char life_head_fits[
+    offsetof(struct rho_message_life, num_parts) ==
+    offsetof(struct rho_message_life_head, num_parts) ? 1 : -1];
 typedef char peak_list_head_fits[
     offsetof(struct rho_message_peak_list, scan) ==
     offsetof(struct rho_message_peak_list_head, scan) ? 1 : -1];
@@ -936,6 +982,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_SETTING_ANSWER_FINGERPRINT,
         RHO_MESSAGE_SETTING_FINGERPRINT,
         RHO_MESSAGE_STATUS_FINGERPRINT,
+        RHO_MESSAGE_TRACK_LIFE_FINGERPRINT,
         RHO_MESSAGE_TRACK_FINGERPRINT,
         RHO_MESSAGE_TRUTH_FINGERPRINT,
         RHO_MESSAGE_WORK_FINGERPRINT,
@@ -947,6 +994,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
         RHO_MESSAGE_GHOST_MATRIX_FINGERPRINT,
         RHO_MESSAGE_HYPOTHESES_FINGERPRINT,
+        RHO_MESSAGE_LIFE_FINGERPRINT,
         RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
         RHO_MESSAGE_PLANE_FINGERPRINT,
         RHO_MESSAGE_PLOT_SCAN_FINGERPRINT,
@@ -1283,6 +1331,25 @@ enum rho_status rho_message_status_validate(
     return rho_message_validate(&status_rules, message, place);
 }
 
+enum rho_status rho_message_track_life_encode(
+    const struct rho_message_track_life *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
+{
+    return rho_message_encode(&track_life_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_track_life_decode(
+    const uint8_t *data, size_t size, struct rho_message_track_life *message)
+{
+    return rho_message_decode(&track_life_format, data, size, message);
+}
+
+enum rho_status rho_message_track_life_validate(
+    const struct rho_message_track_life *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&track_life_rules, message, place);
+}
+
 enum rho_status rho_message_track_encode(
     const struct rho_message_track *message, uint8_t *buffer, size_t capacity,
     size_t *size)
@@ -1568,6 +1635,38 @@ enum rho_status rho_message_hypotheses_add(
     struct rho_message_writer *writer, const struct rho_message_hypothesis *hypothese)
 {
     return rho_message_add(&hypotheses_format, writer, hypothese);
+}
+
+enum rho_status rho_message_life_encode(
+    const struct rho_message_life *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
+{
+    return rho_message_encode(&life_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_life_decode(
+    const uint8_t *data, size_t size, struct rho_message_life *message)
+{
+    return rho_message_decode(&life_format, data, size, message);
+}
+
+enum rho_status rho_message_life_validate(
+    const struct rho_message_life *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&life_rules, message, place);
+}
+
+enum rho_status rho_message_life_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_life_head *head)
+{
+    return rho_message_begin(&life_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_life_add(
+    struct rho_message_writer *writer, const struct rho_message_track_life *track)
+{
+    return rho_message_add(&life_format, writer, track);
 }
 
 enum rho_status rho_message_peak_list_encode(

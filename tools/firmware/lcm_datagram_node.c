@@ -85,6 +85,11 @@ static void publish_status(void)
         status = rho_message_learned_encode(&learned, message, sizeof buffer - head, &size);
         send_if_encoded(status, head + size);
     }
+    for (uint16_t part = 0; status == RHO_OK; part++) {
+        message = begin_message(RHO_MESSAGE_LIFE_CHANNEL, &head);
+        status = rho_node_life(&node, part, message, sizeof buffer - head, &size);
+        send_if_encoded(status, head + size);
+    }
 }
 
 /* ---- Steps ---- */

@@ -421,6 +421,8 @@ static void print_run_json(const struct tracking *tracking, const struct merged_
     cJSON_AddItemToObject(object, "sensors", sensor_health_json(&tracking->pipeline.node->tracker));
     cJSON_AddItemToObject(object, "learned",
                           learned_report_sensors_json(&tracking->pipeline.node->tracker));
+    cJSON_AddItemToObject(object, "life",
+                          learned_report_life_json(&tracking->pipeline.node->tracker));
     if (learned_report_num_walls(pipeline_learning(&tracking->pipeline)) > 0) {
         cJSON_AddItemToObject(object, "learned_reflectors",
                               learned_report_walls_json(pipeline_learning(&tracking->pipeline)));

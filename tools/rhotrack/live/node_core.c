@@ -338,6 +338,17 @@ static void send_learned_of_next_sensor(struct node_core *core)
     }
 }
 
+static void send_lives_of_tracks(const struct node_core *core)
+{
+    uint8_t buffer[RHO_MESSAGE_LIFE_MAX_SIZE];
+    size_t size;
+
+    for (uint16_t part = 0;
+         rho_node_life(core->pipeline.node, part, buffer, sizeof buffer, &size) == RHO_OK; part++) {
+        core->events.send(core->events.context, RHO_MESSAGE_LIFE_CHANNEL, buffer, size);
+    }
+}
+
 static void send_zone_counts(const struct node_core *core)
 {
     struct rho_message_zone_list list;
@@ -375,6 +386,7 @@ void node_core_send_status(struct node_core *core, const struct node_core_losses
     send_work_message(core, losses);
     send_sensor_states(core);
     send_learned_of_next_sensor(core);
+    send_lives_of_tracks(core);
     send_zone_counts(core);
 }
 

@@ -98,6 +98,29 @@ struct cJSON *learned_report_sensors_json(const struct rho_tracker *tracker)
     return list;
 }
 
+struct cJSON *learned_report_life_json(const struct rho_tracker *tracker)
+{
+    const struct rho_tracker_life life = rho_tracker_life(tracker);
+    cJSON *object = cJSON_CreateObject(), *list = cJSON_CreateArray();
+
+    cJSON_AddNumberToObject(object, "death_rate", (double)life.death);
+    cJSON_AddNumberToObject(object, "hide_rate", (double)life.hide);
+    cJSON_AddNumberToObject(object, "appear_rate", (double)life.appear);
+    cJSON_AddNumberToObject(object, "lived_scans", (double)life.lived_scans);
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        cJSON *probabilities = cJSON_CreateObject();
+
+        cJSON_AddNumberToObject(probabilities, "track_id", track->track_id);
+        cJSON_AddNumberToObject(probabilities, "existence",
+                                fmin((double)(track->visible + track->hidden), 1));
+        cJSON_AddNumberToObject(probabilities, "visibility", (double)track->visible);
+        cJSON_AddItemToArray(list, probabilities);
+    }
+    cJSON_AddItemToObject(object, "tracks", list);
+    return object;
+}
+
 unsigned learned_report_num_walls(const struct rho_reflector_learning *walls)
 {
     struct rho_reflector wall;
