@@ -428,8 +428,8 @@ int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
 
 /*
  * Writes part 0, 1, ... of the lives of the node's tracks (life_t), for RHO_MESSAGE_LIFE_CHANNEL.
- * Errors: NULL, STATE (not initialised), VALUE (no such part), CAPACITY; *size is unchanged. Cost
- * and stack: those of rho_publish_life, and 48 bytes.
+ * Errors: NULL, STATE (not initialised), VALUE (no such part), CAPACITY; *size is unchanged. Cost:
+ * that of rho_publish_life. Stack: 288 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_node_life(const struct rho_node *node, uint16_t part,
                                              uint8_t *buffer, size_t capacity, size_t *size);

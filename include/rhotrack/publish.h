@@ -2,9 +2,9 @@
 /*
  * publish: messages of the results of a tracker's step, and of its intermediate results.
  *
- * Results: tracks, bodies, peaks, counters, sensors, echoes and zones, for RHO_TRACKS,
- * RHO_BODIES, RHO_PEAKS, RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_LEARNED, RHO_CLUTTER, RHO_ZONES and
- * RHO_ZONE_EVENTS.
+ * Results: tracks, bodies, peaks, counters, sensors, lives of tracks, echoes and zones, for
+ * RHO_TRACKS, RHO_BODIES, RHO_PEAKS, RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_LEARNED, RHO_LIFE,
+ * RHO_CLUTTER, RHO_ZONES and RHO_ZONE_EVENTS.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
@@ -162,7 +162,7 @@ int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
  * for each live track the probabilities that its target exists, and is visible.
  *   part  from 0; part 0 is there without tracks, too
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the
- * message's bytes. Stack: 240 bytes.
+ * message's bytes. Stack: 256 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_life(const struct rho_tracker *tracker, int32_t step,
                                                 int32_t epoch, uint16_t part, uint8_t *buffer,

@@ -35,7 +35,7 @@ sys.path.insert(0, "bindings")
 import rhotrack
 types = {"RHO_TRACKS": rhotrack.track_list_t, "RHO_PEAKS": rhotrack.peak_list_t,
          "RHO_STATUS": rhotrack.status_t, "RHO_WORK": rhotrack.work_t,
-         "RHO_LEARNED": rhotrack.learned_t}
+         "RHO_LEARNED": rhotrack.learned_t, "RHO_LIFE": rhotrack.life_t}
 counts, last, ended = collections.Counter(), None, []
 def take(channel, data):
     global last
@@ -108,14 +108,14 @@ same_tracks() {
 }
 
 # lists of tracks as many as in the log, peaks as scans, states and work of the node, what it has
-# learned of its radar; up to the last scan
+# learned of its radar and of tracks' lives; up to the last scan
 heard_all() {
-    local tracks peaks states works learned last
-    read -r tracks peaks states works learned last < <(tail -n 1 heard)
-    echo "heard: $tracks $peaks $states $works $learned $last"
+    local tracks peaks states works learned lives last
+    read -r tracks peaks states works learned lives last < <(tail -n 1 heard)
+    echo "heard: $tracks $peaks $states $works $learned $lives $last"
     [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] \
         &&
-        [ "$works" -ge 2 ] && [ "$learned" -ge 2 ] && [ "$last" -eq "$scans" ]
+        [ "$works" -ge 2 ] && [ "$learned" -ge 2 ] && [ "$lives" -ge 2 ] && [ "$last" -eq "$scans" ]
 }
 
 for core in m4 m7; do

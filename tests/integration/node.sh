@@ -121,6 +121,7 @@ check 'a status at once, and one a second, though nothing comes' test "$before" 
 works=$(count idle.lcm RHO_WORK)
 check 'and so with the work' test "$works" -ge "$before"
 check 'no sensor is there to be learned of' test "$(count idle.lcm RHO_LEARNED)" -eq 0
+check 'lives without a track are a message, too' test "$(count idle.lcm RHO_LIFE)" -ge "$works"
 stop INT "$node"
 check 'and a last one' test "$(count idle.lcm RHO_STATUS)" -gt "$before"
 check 'an idle node ends with 0' exits 0

@@ -81,6 +81,9 @@ def check_text():
                                           ring="0") <= 1 and
           of(found, "sensor_noise_factor", sensor="1", name="north tower", axis="range") > 0
           and of(found, "sensor_looks", sensor="1", name="north tower") > 0, found)
+    check("rates of tracks' lives", 0 < of(found, "life_death_rate") < 0.1 and
+          0 < of(found, "life_hide_rate") < 0.1 and 0 < of(found, "life_appear_rate") <= 2 and
+          of(found, "life_lived_scans") > 0, found)
     check("zones", ("rhotrack_zone_tracks", (("zone", "7"),)) in found, found)
     check("work", 0 < of(found, "step_work") <= of(found, "step_work_worst"), found)
     check("refusals by cause: a datagram that is none, a message of a sensor that is not allowed",

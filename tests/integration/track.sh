@@ -143,6 +143,12 @@ check 'json: fates add up' json results.json \
 check 'json: the work for new tracks' json results.json \
     '(o["work_worst"] >= o["work"] and o["work_worst"] > 0
     and (o["partial_steps"], o["plots_not_tried"]) == (0, 0))'
+check 'json: the rates of lives, of which nothing is learned in so few scans' json results.json \
+    '(lambda l: 0.004 < l["death_rate"] < 0.006 and 0.004 < l["hide_rate"] < 0.006
+    and 0.2 < l["appear_rate"] < 0.4 and l["lived_scans"] == 0)(o["life"])'
+check 'json: both targets exist, and are visible' json results.json \
+    '([t["track_id"] for t in o["life"]["tracks"]] == [1, 2] and all(
+    0.99 < t["visibility"] <= t["existence"] <= 1 for t in o["life"]["tracks"]))'
 run track plots.csv --json --set work_max=1
 check 'a limit on it leaves plots out, and says so' json stdout \
     'o["partial_steps"] > 0 and o["plots_not_tried"] > 0'

@@ -93,6 +93,17 @@ def test_step_and_run_are_the_same():
     assert rhotrack.Tracker(covariance=True, **SETTINGS).run(scans)["cov_x_x"].min() > 0
 
 
+def test_rates_of_lives_are_learned():
+    tracker = rhotrack.Tracker(**SETTINGS)
+    at_first = tracker.life
+    assert at_first == {"death_rate": pytest.approx(0.005), "hide_rate": pytest.approx(0.005),
+                        "appear_rate": pytest.approx(1 / 3.5), "lived_scans": 0}
+    tracker.run(one_target(100))
+    learned = tracker.life
+    assert learned["lived_scans"] > 50 and learned["death_rate"] < at_first["death_rate"]
+    assert learned["appear_rate"] == at_first["appear_rate"]
+
+
 def test_hits_that_start_a_track():
     tracker, strict = rhotrack.Tracker(**SETTINGS), rhotrack.Tracker(min_scans=5, **SETTINGS)
     assert tracker.min_scans == 0
@@ -597,7 +608,7 @@ def test_a_node_tracks_messages(scene, tmp_path):
     run = rhotrack.Tracker(node.settings).run(scans)
     last = run[run["t_s"] == run["t_s"].max()]
     np.testing.assert_array_equal(node.tracks["x_m"], last["x_m"])
-    assert "RHO_STATUS" in dict(node.status())
+    assert {"RHO_STATUS", "RHO_LIFE"} <= set(dict(node.status()))
 
 
 def test_bodies_are_columns_and_messages(scene, tmp_path):

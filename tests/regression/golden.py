@@ -739,7 +739,7 @@ def events(log):
         at = start + size
 
 
-PERIODIC = {"RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_LEARNED", "RHO_CLUTTER"}
+PERIODIC = {"RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_LEARNED", "RHO_LIFE", "RHO_CLUTTER"}
 
 
 def without_run(log, is_live=False):

@@ -8,8 +8,8 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(body, BODY) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(setting_answer, SETTING_ANSWER) X(setting, SETTING) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
-#define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(body_list, BODY_LIST, "RHO_BODIES") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
+#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(body, BODY) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(setting_answer, SETTING_ANSWER) X(setting, SETTING) X(status, STATUS) X(track_life, TRACK_LIFE) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
+#define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(body_list, BODY_LIST, "RHO_BODIES") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(life, LIFE, "RHO_LIFE") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
 #endif
 
 static const struct message_member MESSAGE_TABLE(accumulator_cell)[] = {
@@ -220,6 +220,12 @@ static const struct message_member MESSAGE_TABLE(status)[] = {
     {"origin_alt_mm", offsetof(MESSAGE_STRUCT(status), origin_alt_mm), 0, 4, 1, .rule = MEMBER_ANY},
 };
 
+static const struct message_member MESSAGE_TABLE(track_life)[] = {
+    {"track_id", offsetof(MESSAGE_STRUCT(track_life), track_id), 0, 4, 1, .rule = MEMBER_ANY},
+    {"existence", offsetof(MESSAGE_STRUCT(track_life), existence), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"visibility", offsetof(MESSAGE_STRUCT(track_life), visibility), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+};
+
 static const struct message_member MESSAGE_TABLE(track)[] = {
     {"track_id", offsetof(MESSAGE_STRUCT(track), track_id), 0, 4, 1, .rule = MEMBER_ANY},
     {"status", offsetof(MESSAGE_STRUCT(track), status), 0, 1, 1, .rule = MEMBER_ONE_OF, .choices = {1, 2, 3, 4}, .num_choices = 4},
@@ -377,6 +383,19 @@ static const struct message_member MESSAGE_TABLE(hypotheses)[] = {
     {"not_sent", offsetof(MESSAGE_STRUCT(hypotheses), not_sent), MESSAGE_HEAD(hypotheses, not_sent), 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
 };
 
+static const struct message_member MESSAGE_TABLE(life)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(life), utime), MESSAGE_HEAD(life, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(life), scan), MESSAGE_HEAD(life, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(life), epoch), MESSAGE_HEAD(life, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"death_rate", offsetof(MESSAGE_STRUCT(life), death_rate), MESSAGE_HEAD(life, death_rate), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"hide_rate", offsetof(MESSAGE_STRUCT(life), hide_rate), MESSAGE_HEAD(life, hide_rate), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"appear_rate", offsetof(MESSAGE_STRUCT(life), appear_rate), MESSAGE_HEAD(life, appear_rate), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(2)},
+    {"lived_scans", offsetof(MESSAGE_STRUCT(life), lived_scans), MESSAGE_HEAD(life, lived_scans), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
+    {"num_tracks_total", offsetof(MESSAGE_STRUCT(life), num_tracks_total), MESSAGE_HEAD(life, num_tracks_total), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"part", offsetof(MESSAGE_STRUCT(life), part), MESSAGE_HEAD(life, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(life), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(life), num_parts), MESSAGE_HEAD(life, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+};
+
 static const struct message_member MESSAGE_TABLE(peak_list)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(peak_list), utime), MESSAGE_HEAD(peak_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(peak_list), scan), MESSAGE_HEAD(peak_list, scan), 4, 1, .rule = MEMBER_ANY},
@@ -482,6 +501,7 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"setting_answer_t", MESSAGE_TABLE(setting_answer), 11, sizeof(MESSAGE_STRUCT(setting_answer)), .element_members = NULL},
     {"setting_t", MESSAGE_TABLE(setting), 4, sizeof(MESSAGE_STRUCT(setting)), .element_members = NULL},
     {"status_t", MESSAGE_TABLE(status), 35, sizeof(MESSAGE_STRUCT(status)), .element_members = NULL},
+    {"track_life_t", MESSAGE_TABLE(track_life), 3, sizeof(MESSAGE_STRUCT(track_life)), .element_members = NULL},
     {"track_t", MESSAGE_TABLE(track), 19, sizeof(MESSAGE_STRUCT(track)), .element_members = NULL},
     {"truth_t", MESSAGE_TABLE(truth), 7, sizeof(MESSAGE_STRUCT(truth)), .element_members = NULL},
     {"work_t", MESSAGE_TABLE(work), 11, sizeof(MESSAGE_STRUCT(work)), .element_members = NULL},
@@ -505,6 +525,9 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"hypotheses_t", MESSAGE_TABLE(hypotheses), 13, sizeof(MESSAGE_STRUCT(hypotheses)),
      {"num_hypotheses", offsetof(MESSAGE_STRUCT(hypotheses), num_hypotheses), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(hypotheses), hypotheses), MESSAGE_TABLE(hypothesis), 7, sizeof(MESSAGE_STRUCT(hypothesis)), 30, 8, MESSAGE_LIST_IS_POINTER},
+    {"life_t", MESSAGE_TABLE(life), 10, sizeof(MESSAGE_STRUCT(life)),
+     {"num_tracks", offsetof(MESSAGE_STRUCT(life), num_tracks), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(life), tracks), MESSAGE_TABLE(track_life), 3, sizeof(MESSAGE_STRUCT(track_life)), 12, 100, MESSAGE_LIST_IS_POINTER},
     {"peak_list_t", MESSAGE_TABLE(peak_list), 2, sizeof(MESSAGE_STRUCT(peak_list)),
      {"num_peaks", offsetof(MESSAGE_STRUCT(peak_list), num_peaks), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(peak_list), peaks), MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), 20, 48, MESSAGE_LIST_IS_POINTER},

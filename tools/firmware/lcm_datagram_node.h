@@ -12,8 +12,8 @@
  *
  * All memory is static: one node a program. Faulty messages never stop the node; they are counted
  * in the messages RHO_STATUS and RHO_WORK, which are sent once a second, with RHO_LEARNED of each
- * sensor in turn. Passive sensors are handled, too, where RHO_SCAN_KINDS includes them. Messages
- * are processed by the library's node (rhotrack/node.h).
+ * sensor in turn, and RHO_LIFE. Passive sensors are handled, too, where RHO_SCAN_KINDS includes
+ * them. Messages are processed by the library's node (rhotrack/node.h).
  */
 #ifndef LCM_DATAGRAM_NODE_H
 #define LCM_DATAGRAM_NODE_H

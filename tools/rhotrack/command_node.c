@@ -545,6 +545,7 @@ static bool is_output_channel(const char *channel)
            strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_LEARNED_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_LIFE_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_GHOST_MATRIX_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_ACCUMULATOR_CHANNEL) == 0 ||

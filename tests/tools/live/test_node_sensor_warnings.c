@@ -39,6 +39,8 @@ struct live {
     struct rho_message_sensor_list list; /* the last list of sensors */
     unsigned lists;
     struct rho_message_learned learned; /* the last message of learned values */
+    struct rho_message_life life;       /* the last message of tracks' lives */
+    unsigned lives;
 };
 
 static void keep_sent_message(void *context, const char *channel, const uint8_t *data, size_t size)
@@ -52,6 +54,10 @@ static void keep_sent_message(void *context, const char *channel, const uint8_t 
     } else if (strcmp(channel, RHO_MESSAGE_LEARNED_CHANNEL) == 0) {
         assert_int_equal(rho_message_learned_decode(data, size, &live->learned), RHO_OK);
         assert_int_equal(rho_message_learned_validate(&live->learned, NULL), RHO_OK);
+    } else if (strcmp(channel, RHO_MESSAGE_LIFE_CHANNEL) == 0) {
+        assert_int_equal(rho_message_life_decode(data, size, &live->life), RHO_OK);
+        assert_int_equal(rho_message_life_validate(&live->life, NULL), RHO_OK);
+        live->lives++;
     }
 }
 
@@ -323,6 +329,24 @@ static void learned_values_are_sent_of_one_sensor_at_a_time(void **state)
     close_node_core(live);
 }
 
+static void lives_of_tracks_are_sent_with_each_status(void **state)
+{
+    struct live *live = open_node_core();
+
+    (void)state;
+    run_rounds(live, 0, 40, WELL);
+    assert_int_equal(live->lives, live->lists);
+    assert_int_equal(live->life.scan, live->list.scan);
+    assert_int_equal(live->life.epoch, live->list.epoch);
+    assert_int_equal(live->life.num_tracks, TARGETS);
+    assert_true(live->life.lived_scans > 0.0f);
+    for (int i = 0; i < live->life.num_tracks; i++) {
+        assert_true(live->life.tracks[i].existence > 0.9f);
+        assert_true(live->life.tracks[i].visibility <= live->life.tracks[i].existence);
+    }
+    close_node_core(live);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +357,7 @@ int main(void)
         cmocka_unit_test(a_stopped_sensor_is_reported_silent),
         cmocka_unit_test(a_sensor_of_a_single_scan_is_not_warned_of),
         cmocka_unit_test(learned_values_are_sent_of_one_sensor_at_a_time),
+        cmocka_unit_test(lives_of_tracks_are_sent_with_each_status),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -327,6 +327,40 @@ static void learned_values_of_sensors_are_sent_in_turn(void **state)
     assert_int_equal(rho_node_learned(&node, NULL), 0);
 }
 
+static void lives_of_tracks_are_sent_in_parts(void **state)
+{
+    static struct rho_message_life life;
+    uint8_t bytes[RHO_MESSAGE_LIFE_MAX_SIZE];
+    size_t size = 12345;
+
+    (void)state;
+    memset(&node, 0, sizeof node);
+    assert_int_equal(rho_node_life(NULL, 0, bytes, sizeof bytes, &size), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_life(&node, 0, bytes, sizeof bytes, &size), RHO_ERROR_STATE);
+    start_default_node();
+    assert_int_equal(rho_node_life(&node, 0, NULL, sizeof bytes, &size), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_life(&node, 1, bytes, sizeof bytes, &size), RHO_ERROR_VALUE);
+    assert_int_equal(rho_node_life(&node, 0, bytes, 4, &size), RHO_ERROR_CAPACITY);
+    assert_int_equal(size, 12345);
+    assert_int_equal(rho_node_life(&node, 0, bytes, sizeof bytes, &size), RHO_OK);
+    assert_int_equal(rho_message_life_decode(bytes, size, &life), RHO_OK);
+    assert_int_equal(life.scan, 0);
+    assert_int_equal(life.num_tracks, 0);
+    for (int32_t k = 0; k < 8; k++, now_us += SECOND_US) {
+        send_scan(1, k, now_us);
+    }
+    assert_true(node.tracker.num_tracks > 0);
+    assert_int_equal(rho_node_life(&node, 0, bytes, sizeof bytes, &size), RHO_OK);
+    assert_int_equal(rho_message_life_decode(bytes, size, &life), RHO_OK);
+    assert_int_equal(rho_message_life_validate(&life, NULL), RHO_OK);
+    assert_int_equal(life.scan, 8);
+    assert_int_equal(life.epoch, EPOCH);
+    assert_true(life.utime == now_us - SECOND_US);
+    assert_int_equal(life.num_tracks, node.tracker.num_tracks);
+    assert_int_equal(life.tracks[0].track_id, node.report.tracks[0].track_id);
+    assert_true(life.tracks[0].existence > 0.9f);
+}
+
 /* Scans without their last part fill the assembler: the oldest is given before its hold time. */
 static void a_full_assembler_gives_one_scan_to_make_room(void **state)
 {
@@ -647,6 +681,7 @@ int main(void)
         cmocka_unit_test(scans_without_messages_take_the_same_chain),
         cmocka_unit_test(the_status_holds_mean_and_longest_step_time),
         cmocka_unit_test(learned_values_of_sensors_are_sent_in_turn),
+        cmocka_unit_test(lives_of_tracks_are_sent_in_parts),
         cmocka_unit_test(a_full_assembler_gives_one_scan_to_make_room),
         cmocka_unit_test(silent_sensors_make_room_for_others),
         cmocka_unit_test(a_scan_of_a_sensor_without_room_is_refused),

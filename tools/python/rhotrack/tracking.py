@@ -118,6 +118,14 @@ class Tracker:
         return tracker.start_mnat / 1000, tracker.confirm_mnat / 1000
 
     @property
+    def life(self) -> dict[str, float]:
+        """death_rate, hide_rate and appear_rate, at which targets leave, are hidden and are visible
+        again in a scan interval; lived_scans: intervals from which the first two are learned."""
+        rates = lib.rho_tracker_life(self._pipeline.tracker)
+        return {"death_rate": rates.death, "hide_rate": rates.hide,
+                "appear_rate": rates.appear, "lived_scans": rates.lived_scans}
+
+    @property
     def learned_reflectors(self) -> np.ndarray:
         """(n, 4): from x, y to x, y of walls that are learned from what they show, m."""
         wall, found = ffi.new("struct rho_reflector *"), []
@@ -227,7 +235,7 @@ class Node:
         return self._do(ffi.NULL, b"", 2**63 - 1)
 
     def status(self) -> list[tuple[str, bytes]]:
-        """The messages RHO_STATUS, RHO_WORK, RHO_SENSORS and RHO_LEARNED of now."""
+        """The messages RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_LEARNED and RHO_LIFE of now."""
         self._sent.clear()
         must(lib.program_node_send_status(self._node))
         return list(self._sent)

@@ -89,7 +89,10 @@ struct node_core_losses {
     uint64_t events_not_logged;   /* events left out as the log was full */
 };
 
-/* Publishes RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_ZONES, and RHO_LEARNED of one sensor in turn. */
+/*
+ * Publishes RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_LEARNED of one sensor in turn, RHO_LIFE and
+ * RHO_ZONES.
+ */
 void node_core_send_status(struct node_core *core, const struct node_core_losses *losses);
 
 /* report of the last step */

@@ -346,6 +346,26 @@ static void write_learned(FILE *out, const struct prometheus_metrics_source *sou
                       true);
 }
 
+/* ---- Tracks' lives ---- */
+
+static void write_life(FILE *out, const struct prometheus_metrics_source *source)
+{
+    const struct rho_tracker_life life = rho_tracker_life(node_core_tracker_state(source->core));
+
+    write_single_value(out, "life_death_rate", "gauge",
+                       "Learned rate at which targets leave, by scan interval.",
+                       (double)life.death);
+    write_single_value(out, "life_hide_rate", "gauge",
+                       "Learned rate at which visible targets are hidden, by scan interval.",
+                       (double)life.hide);
+    write_single_value(out, "life_appear_rate", "gauge",
+                       "Rate at which hidden targets are visible again, by scan interval.",
+                       (double)life.appear);
+    write_single_value(out, "life_lived_scans", "gauge",
+                       "Scan intervals that the rates of death and hiding are learned of.",
+                       (double)life.lived_scans);
+}
+
 /* ---- Zones ---- */
 
 static void write_zones(FILE *out, const struct rho_zones *zones)
@@ -385,6 +405,7 @@ void prometheus_metrics_write(FILE *out, const struct prometheus_metrics_source 
     write_times_and_work(out, source);
     write_sensor_states(out, source);
     write_learned(out, source);
+    write_life(out, source);
     if (node_core_zones(source->core)) {
         write_zones(out, node_core_zones(source->core));
     }

@@ -20,6 +20,7 @@ static bool has_scan_number(const uint8_t *data, size_t size)
     case RHO_MESSAGE_TYPE_WORK:
     case RHO_MESSAGE_TYPE_SENSOR_LIST:
     case RHO_MESSAGE_TYPE_LEARNED:
+    case RHO_MESSAGE_TYPE_LIFE:
     case RHO_MESSAGE_TYPE_CLUTTER_MAP:
     case RHO_MESSAGE_TYPE_GHOST_MATRIX:
     case RHO_MESSAGE_TYPE_ACCUMULATOR:

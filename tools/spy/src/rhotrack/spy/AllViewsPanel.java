@@ -45,7 +45,7 @@ final class AllViewsPanel extends JPanel {
         setFocusable(true);
         add(createControls().component(), BorderLayout.NORTH);
         JSplitPane side = splitPane(JSplitPane.VERTICAL_SPLIT, peaks, table, 0.6);
-        add(splitPane(JSplitPane.HORIZONTAL_SPLIT, plan, side, 0.72), BorderLayout.CENTER);
+        add(splitPane(JSplitPane.HORIZONTAL_SPLIT, plan, side, 0.7), BorderLayout.CENTER);
         add(status, BorderLayout.SOUTH);
         PointerControl.attach(plan);
         plan.setSelectionListener(table::selectTrack);

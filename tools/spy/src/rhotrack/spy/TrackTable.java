@@ -6,6 +6,7 @@ import java.awt.Graphics;
 import java.awt.Graphics2D;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
 import javax.swing.JComponent;
 
 import rhotrack.spy.scene.DisplayedTrack;
@@ -19,7 +20,9 @@ import rhotrack.spy.scene.Scene;
 @SuppressWarnings("serial") // views are never serialised
 final class TrackTable extends JComponent {
     private static final int ROW = 20;
-    private static final String[] TITLES = {"track", "speed", "course", "height", "hits", "score"};
+    private static final String[] TITLES =
+            {"track", "speed", "course", "height", "exists", "hits", "score"};
+    private static final String UNKNOWN = "\u2013";
 
     private static final int LEFT = 26; // left edge of the first column, behind the symbols
     private static final int RIGHT = 16;
@@ -54,15 +57,18 @@ final class TrackTable extends JComponent {
             g.dispose();
             return;
         }
-        paintTable(g, scene == null ? List.of() : DisplayedTrack.byImportance(scene.tracks()));
+        paintTable(g, scene == null ? List.of() : DisplayedTrack.byImportance(scene.tracks()),
+                scene == null ? Map.of() : scene.existence());
         g.dispose();
     }
 
-    private void paintTable(Graphics2D g, List<DisplayedTrack> tracks) {
+    private void paintTable(Graphics2D g, List<DisplayedTrack> tracks,
+            Map<Integer, Double> existence) {
         int room = Math.max(1, (getHeight() - 32) / ROW);
         List<DisplayedTrack> shown =
                 tracks.subList(0, tracks.size() <= room ? tracks.size() : room - 1);
-        List<String[]> cells = shown.stream().map(TrackTable::cellsOf).toList();
+        List<String[]> cells = shown.stream()
+                .map(track -> cellsOf(track, existence.get(track.id()))).toList();
         double[] edges =
                 TableColumnWidths.rightEdges(columnWidths(g, cells), getWidth() - LEFT - RIGHT);
         g.setFont(Palette.SMALL);
@@ -84,12 +90,14 @@ final class TrackTable extends JComponent {
         }
     }
 
-    static String[] cellsOf(DisplayedTrack track) {
+    /** The cells of a track; exists: probability that its target exists, null: not known. */
+    static String[] cellsOf(DisplayedTrack track, Double exists) {
         return new String[] {Integer.toString(track.id()),
             String.format(Locale.ROOT, "%.0f m/s", track.speed()),
             String.format(Locale.ROOT, "%03.0f\u00b0",
                     Geometry.compassDegrees(track.vx(), track.vy())),
-            track.height() == 0 ? "\u2013" : String.format(Locale.ROOT, "%.0f m", track.height()),
+            track.height() == 0 ? UNKNOWN : String.format(Locale.ROOT, "%.0f m", track.height()),
+            exists == null ? UNKNOWN : String.format(Locale.ROOT, "%.0f %%", 100 * exists),
             Integer.toString(track.hits()), String.format(Locale.ROOT, "%.1f", track.score())};
     }
 

@@ -7,6 +7,7 @@ import java.io.DataOutputStream;
 import java.io.IOException;
 import java.util.Arrays;
 import java.util.List;
+import java.util.Map;
 import java.awt.event.InputEvent;
 import java.awt.event.MouseEvent;
 import java.util.Random;
@@ -23,6 +24,7 @@ import rhotrack.ghost_t;
 import rhotrack.hypotheses_t;
 import rhotrack.hypothesis_t;
 import rhotrack.learned_t;
+import rhotrack.life_t;
 import rhotrack.peak_list_t;
 import rhotrack.peak_t;
 import rhotrack.plane_row_t;
@@ -32,6 +34,7 @@ import rhotrack.polar_scan_t;
 import rhotrack.sensor_list_t;
 import rhotrack.sensor_t;
 import rhotrack.status_t;
+import rhotrack.track_life_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
 import rhotrack.work_t;
@@ -52,6 +55,7 @@ final class MessagesToPictureTest {
         check.group("mutated messages", () -> mutated(check));
         check.group("picture", () -> picture(check));
         check.group("bodies", () -> bodies(check));
+        check.group("lives", () -> lives(check));
         check.group("thoughts", () -> thoughts(check));
         check.group("bad thoughts", () -> badThoughts(check));
         check.group("pictures of thoughts", () -> thoughtsInPictures(check));
@@ -182,6 +186,71 @@ final class MessagesToPictureTest {
         check.equal("change nothing", 1, model.scene().bodies().size());
         model.clear();
         check.equal("forgotten", 0, model.scene().bodies().size());
+    }
+
+    private static life_t lives(int scan, int part, int numParts, int track, double existence,
+            double visibility) {
+        track_life_t life = new track_life_t();
+        life.track_id = track;
+        life.existence = (float) existence;
+        life.visibility = (float) visibility;
+        life_t list = new life_t();
+        list.scan = scan;
+        list.death_rate = 0.005f;
+        list.hide_rate = 0.005f;
+        list.appear_rate = 0.3f;
+        list.lived_scans = 100;
+        list.part = (short) part;
+        list.num_parts = (short) numParts;
+        list.num_tracks_total = (short) numParts;
+        list.num_tracks = 1;
+        list.tracks = new track_life_t[] {life};
+        return list;
+    }
+
+    private static void lives(Checks check) throws IOException {
+        Model model = new Model();
+        AllViewsPanel panel = new AllViewsPanel(model);
+        MessageDecoder decoder = new MessageDecoder(model);
+        decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
+        BufferedImage unknown = panel.paintToImage(1280, 800);
+        decoder.decode("RHO_LIFE", bytes(lives(1, 0, 2, 12, 0.75, 0.5)));
+        check.equal("half of a list", Map.of(), model.scene().existence());
+        decoder.decode("RHO_LIFE", bytes(lives(1, 1, 2, 40, 1, 1)));
+        check.equal("both parts", Map.of(12, 0.75, 40, 1.0), model.scene().existence());
+        BufferedImage known = panel.paintToImage(1280, 800);
+        check.isTrue("is in the table", differ(unknown, known, 900, 450, 1280, 770) > 10);
+        check.equal("and nowhere else", 0, differ(unknown, known, 0, 40, 880, 760));
+        decoder.decode("RHO_LIFE", bytes(lives(2, 0, 1, 12, 0.5, 0.5 + 5e-7)));
+        check.equal("the next one, rounded", Map.of(12, 0.5), model.scene().existence());
+        check.equal("all taken", 0L, model.scene().health().ignored());
+        life_t[] bad = {lives(3, 1, 1, 12, 1, 1), lives(3, 0, 1, 12, 1.5, 1),
+            lives(3, 0, 1, 12, 1, -0.1), lives(3, 0, 1, 12, Double.NaN, 0),
+            lives(3, 0, 1, 12, 1, Double.NaN), lives(3, 0, 1, 12, 0.5, 0.51),
+            lives(3, 0, 1, 12, 1, 1), lives(3, 0, 1, 12, 1, 1), lives(3, 0, 1, 12, 1, 1),
+            lives(3, 0, 1, 12, 1, 1), lives(3, 0, 1, 12, 1, 1)};
+        bad[6].death_rate = 1.5f;
+        bad[7].hide_rate = Float.NaN;
+        bad[8].appear_rate = 2.5f;
+        bad[9].lived_scans = -1;
+        bad[10].num_tracks = life_t.MAX_TRACKS + 1;
+        bad[10].tracks = new track_life_t[bad[10].num_tracks];
+        Arrays.fill(bad[10].tracks, bad[0].tracks[0]);
+        for (life_t message : bad) {
+            decoder.decode("RHO_LIFE", bytes(message));
+        }
+        check.equal("bad ones", (long) bad.length, model.scene().health().ignored());
+        check.equal("change nothing", Map.of(12, 0.5), model.scene().existence());
+        track_list_t restarted = trackList(1, track_t.CONFIRMED);
+        restarted.epoch = 9;
+        decoder.decode("RHO_TRACKS", bytes(restarted));
+        check.equal("ids of a tracker that is gone", Map.of(), model.scene().existence());
+        life_t anew = lives(1, 0, 1, 12, 0.25, 0.25);
+        anew.epoch = 9;
+        decoder.decode("RHO_LIFE", bytes(anew));
+        check.equal("those of the new one", Map.of(12, 0.25), model.scene().existence());
+        model.clear();
+        check.equal("forgotten", Map.of(), model.scene().existence());
     }
 
     private static work_t work(long work, long most, long partial) {
@@ -318,7 +387,7 @@ final class MessagesToPictureTest {
                 model.scene().internals().ghosts().get(0).crossings().size());
         model.clear();
         check.equal("forgotten",
-                new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
+                new Scene.Internals(List.of(), List.of(), List.of(), Map.of()),
                 model.scene().internals());
     }
 
@@ -341,7 +410,7 @@ final class MessagesToPictureTest {
         decoder.decode("RHO_HYPOTHESES", bytes(more));
         check.equal("all refused", 8L, model.scene().health().ignored());
         check.equal("nothing is thought",
-                new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
+                new Scene.Internals(List.of(), List.of(), List.of(), Map.of()),
                 model.scene().internals());
         for (int i = 0; i < 300; i++) {
             ghost_matrix_t pair = ghosts(1, 0, 1, ghost_t.ROW);
@@ -530,7 +599,7 @@ final class MessagesToPictureTest {
             bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3)),
             bytes(learned(3, 2, 1, 0.6)), bytes(ghosts(1, 0, 1, ghost_t.ROW)),
             bytes(search(1, 7, 12)), bytes(plane(1, 0, 4, 127)), bytes(hypotheses(12, 0.7f)),
-            bytes(bodies(1, 400))};
+            bytes(bodies(1, 400)), bytes(lives(1, 0, 1, 12, 0.75, 0.5))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();

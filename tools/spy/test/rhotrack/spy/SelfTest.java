@@ -274,7 +274,11 @@ public final class SelfTest {
         Graphics2D g = new BufferedImage(10, 10, BufferedImage.TYPE_INT_RGB).createGraphics();
         DisplayedTrack far = new DisplayedTrack(65535, DisplayedTrack.Status.CONFIRMED,
                 new LocalPoint(0, 0), 123456, 19000, 0, 99999, 0, 123456.7, null);
-        double[] widths = TrackTable.columnWidths(g, List.<String[]>of(TrackTable.cellsOf(far)));
+        String[] cells = TrackTable.cellsOf(far, 0.996);
+        CHECK.equal("existence per cent", "100 %", cells[4]);
+        CHECK.equal("0 is known", "0 %", TrackTable.cellsOf(far, 0.0)[4]);
+        CHECK.equal("existence that is not known", "\u2013", TrackTable.cellsOf(far, null)[4]);
+        double[] widths = TrackTable.columnWidths(g, List.<String[]>of(cells));
         for (int room = 60; room < 900; room += 7) {
             double[] edges = TableColumnWidths.rightEdges(widths, room);
             double before = 0;
@@ -285,11 +289,11 @@ public final class SelfTest {
             }
             CHECK.isTrue("nor leave the table", before <= room + 1e-9);
         }
-        CHECK.equal("all of them where there is room", 6,
+        CHECK.equal("all of them where there is room", 7,
                 TableColumnWidths.rightEdges(widths, 900).length);
         CHECK.isTrue("the last ones go first",
-                TableColumnWidths.rightEdges(widths, 200).length < 6);
-        CHECK.near("up to the edge", 900, TableColumnWidths.rightEdges(widths, 900)[5]);
+                TableColumnWidths.rightEdges(widths, 200).length < 7);
+        CHECK.near("up to the edge", 900, TableColumnWidths.rightEdges(widths, 900)[6]);
     }
 
     private static void statusLine() {

@@ -20,6 +20,7 @@ import rhotrack.ghost_t;
 import rhotrack.hypotheses_t;
 import rhotrack.hypothesis_t;
 import rhotrack.learned_t;
+import rhotrack.life_t;
 import rhotrack.peak_list_t;
 import rhotrack.plane_row_t;
 import rhotrack.plane_t;
@@ -28,6 +29,7 @@ import rhotrack.polar_scan_t;
 import rhotrack.sensor_list_t;
 import rhotrack.sensor_t;
 import rhotrack.status_t;
+import rhotrack.track_life_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
 import rhotrack.truth_list_t;
@@ -39,6 +41,9 @@ import rhotrack.work_t;
  * is counted as ignored and changes nothing.
  */
 public final class MessageDecoder {
+    /** How far a visibility may exceed its existence by rounding. */
+    private static final double ROUNDING = 1e-6;
+
     private final Model model;
 
     public MessageDecoder(Model model) {
@@ -58,6 +63,7 @@ public final class MessageDecoder {
                 || fingerprint == clutter_map_t.LCM_FINGERPRINT
                 || fingerprint == work_t.LCM_FINGERPRINT
                 || fingerprint == learned_t.LCM_FINGERPRINT
+                || fingerprint == life_t.LCM_FINGERPRINT
                 || fingerprint == ghost_matrix_t.LCM_FINGERPRINT
                 || fingerprint == accumulator_t.LCM_FINGERPRINT
                 || fingerprint == plane_t.LCM_FINGERPRINT
@@ -104,6 +110,9 @@ public final class MessageDecoder {
         }
         if (fingerprint == learned_t.LCM_FINGERPRINT) {
             return storeIfValid(new learned_t(in), in);
+        }
+        if (fingerprint == life_t.LCM_FINGERPRINT) {
+            return storeIfValid(new life_t(in), in);
         }
         if (fingerprint == clutter_map_t.LCM_FINGERPRINT) {
             return storeIfValid(new clutter_map_t(in), in);
@@ -445,6 +454,25 @@ public final class MessageDecoder {
             notes.add(String.format(Locale.ROOT, "S%d pd down to %.2f", learned.sensor_id, least));
         }
         model.setLearned(learned.sensor_id, notes);
+        return true;
+    }
+
+    private boolean storeIfValid(life_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_tracks > life_t.MAX_TRACKS
+                || !isValidPart(list.part, list.num_parts)
+                || !areWithin0And1(list.death_rate, list.hide_rate, list.appear_rate / 2)
+                || !(list.lived_scans >= 0 && list.lived_scans <= 1e9)) {
+            return false;
+        }
+        List<Scene.Life> lives = new ArrayList<>();
+        for (track_life_t life : list.tracks) {
+            if (!areWithin0And1(life.existence, life.visibility)
+                    || life.visibility > life.existence + ROUNDING) {
+                return false;
+            }
+            lives.add(new Scene.Life(life.track_id, life.existence));
+        }
+        model.addLives(list.epoch, list.scan, list.part, list.num_parts, lives);
         return true;
     }
 

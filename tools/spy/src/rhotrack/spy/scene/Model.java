@@ -2,6 +2,7 @@
 package rhotrack.spy.scene;
 
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -26,10 +27,14 @@ public final class Model {
     private ListAssembler<Scene.Truth> truthParts = new ListAssembler<>();
     private ListAssembler<Scene.Echo> echoParts = new ListAssembler<>();
     private ListAssembler<Scene.Body> bodyParts = new ListAssembler<>();
+    private ListAssembler<Scene.Life> lifeParts = new ListAssembler<>();
     private TracksWithTrails tracks = new TracksWithTrails();
     private List<Scene.Truth> truth = List.of();
     private List<Scene.Echo> echoes = List.of();
     private List<Scene.Body> bodies = List.of();
+    /** Probabilities of existence in RHO_LIFE, by track; and the tracker's epoch in it. */
+    private Map<Integer, Double> existence = Map.of();
+    private int existenceEpoch;
     private final Map<Integer, LocalPoint> sensors = new TreeMap<>();
     /** Sensor faults in RHO_SENSORS, by part of the list. */
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
@@ -74,7 +79,12 @@ public final class Model {
 
     public synchronized void addTracks(int epoch, int scan, int part, int numParts,
             List<DisplayedTrack> marks) {
-        trackParts.add(epoch, scan, part, numParts, marks).forEach(tracks::applyList);
+        trackParts.add(epoch, scan, part, numParts, marks).forEach(list -> {
+            tracks.applyList(list);
+            if (list.epoch() != existenceEpoch) {
+                existence = Map.of(); // ids of another or restarted tracker
+            }
+        });
         tracksNanos = System.nanoTime();
     }
 
@@ -93,6 +103,16 @@ public final class Model {
             List<Scene.Body> known) {
         bodyParts.add(epoch, scan, part, numParts, known)
                 .forEach(list -> bodies = List.copyOf(list.items()));
+    }
+
+    public synchronized void addLives(int epoch, int scan, int part, int numParts,
+            List<Scene.Life> lives) {
+        lifeParts.add(epoch, scan, part, numParts, lives).forEach(list -> {
+            Map<Integer, Double> known = new HashMap<>();
+            list.items().forEach(life -> known.put(life.trackId(), life.existence()));
+            existence = Map.copyOf(known);
+            existenceEpoch = list.epoch();
+        });
     }
 
     /** Stores a message about the tracker's internals. */
@@ -148,10 +168,12 @@ public final class Model {
         truthParts = new ListAssembler<>();
         echoParts = new ListAssembler<>();
         bodyParts = new ListAssembler<>();
+        lifeParts = new ListAssembler<>();
         tracks = new TracksWithTrails();
         truth = List.of();
         echoes = List.of();
         bodies = List.of();
+        existence = Map.of();
         internals.clear();
         changes++;
     }
@@ -168,7 +190,7 @@ public final class Model {
         Scene.Health health = new Scene.Health(status, work, faults, secondsSince(statusNanos),
                 secondsSince(tracksNanos), received, ignored);
         return new Scene(allPlots, allBearings, peaks.contentsWithStrength(), tracks.tracks(),
-                tracks.trails(), truth, echoes, bodies, new TreeMap<>(sensors),
+                tracks.trails(), truth, echoes, bodies, existence, new TreeMap<>(sensors),
                 internals.copyFor(tracks.tracks()), health);
     }
 

@@ -11,8 +11,8 @@ import java.util.Map;
 public record Scene(List<LookHistory.Faded<Plots>> plots,
         List<LookHistory.Faded<Bearings>> bearings, List<LookHistory.Faded<Peaks>> peaks,
         List<DisplayedTrack> tracks, List<List<LocalPoint>> trails, List<Truth> truth,
-        List<Echo> echoes, List<Body> bodies, Map<Integer, LocalPoint> sensors, Internals internals,
-        Health health) {
+        List<Echo> echoes, List<Body> bodies, Map<Integer, Double> existence,
+        Map<Integer, LocalPoint> sensors, Internals internals, Health health) {
     /** Plots of one look of a sensor, or of a part of the look. */
     public record Plots(int sensorId, List<LocalPoint> places) {
     }
@@ -39,6 +39,10 @@ public record Scene(List<LookHistory.Faded<Plots>> plots,
     /** The estimated rectangle of an extended target, its length along the heading. */
     public record Body(int trackId, LocalPoint centre, double length, double width,
             double heading) {
+    }
+
+    /** RHO_LIFE: the probability that a track's target exists, visible or hidden. */
+    public record Life(int trackId, double existence) {
     }
 
     /** The tracker's internals, where it was asked to publish them (--show). */
