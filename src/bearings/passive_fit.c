@@ -39,18 +39,21 @@ static void add_bearing_equation(const struct rho_passive_search *search, unsign
     }
 }
 
+/* Bearings that a fit takes: the nearest of those that no track claimed, of all; the claimed ones. */
+enum fitted { FIT_FREE, FIT_ALL, FIT_CLAIMED };
+
 static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas)
 {
     return rho_square(rho_passive_residual(nearest)) < rho_square(gate_sigmas);
 }
 
 /*
- * Normal equations of the nearest bearings within the gate, or of the claimed ones (claim: not
- * NULL) at any distance; with weak priors of position and speed.
+ * Normal equations of the nearest bearings within the gate, or of the claimed ones (claim)
+ * at any distance; with weak priors of position and speed.
  */
 static struct equations equations_of_bearings(const struct rho_passive_search *search,
                                               const float state_m[N], float gate,
-                                              int include_claimed,
+                                              enum fitted fitted,
                                               const uint8_t (*claim)[RHO_MAX_PASSIVE_SENSORS])
 {
     const struct rho_batch *batch = &search->passive->batch;
@@ -59,9 +62,10 @@ static struct equations equations_of_bearings(const struct rho_passive_search *s
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                claim ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
-                      : rho_passive_match_nearest(search, k, s, state_m, include_claimed);
-            if (nearest.bearing >= 0 && (claim || is_in_gate(&nearest, gate))) {
+                fitted == FIT_CLAIMED
+                    ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
+                    : rho_passive_match_nearest(search, k, s, state_m, fitted == FIT_ALL);
+            if (nearest.bearing >= 0 && (fitted == FIT_CLAIMED || is_in_gate(&nearest, gate))) {
                 add_bearing_equation(search, k, &nearest, &equations);
             }
         }
@@ -106,7 +110,7 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     int goes_on = 1;
     for (unsigned step = 0; step < 4 && goes_on; step++) {
         struct equations equations =
-            equations_of_bearings(search, state_m, gates[step], include_claimed, NULL);
+            equations_of_bearings(search, state_m, gates[step], include_claimed ? FIT_ALL : FIT_FREE, NULL);
         goes_on = take_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
@@ -115,7 +119,7 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
 static struct equations equations_of_claims(const struct rho_passive_search *search,
                                             const struct rho_passive_candidate *track)
 {
-    return equations_of_bearings(search, track->state_m, 0.0f, 0, track->claim);
+    return equations_of_bearings(search, track->state_m, 0.0f, FIT_CLAIMED, track->claim);
 }
 
 void rho_passive_step_to_claims(const struct rho_passive_search *search,

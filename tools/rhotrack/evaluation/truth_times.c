@@ -352,8 +352,9 @@ static struct track_lives lives_of(const struct timed_points *tracks, const stru
 
     for (size_t begin = 0, end; begin < sorted.count; begin = end) {
         end = end_of_identity(&sorted, begin);
-        for (size_t i = begin + 1; i < end; i++) {
-            intervals_us[num_intervals++] = sorted.list[i].time_us - sorted.list[i - 1].time_us;
+        const struct timed_point *last_point = sorted.list + (end - 1);
+        for (const struct timed_point *at = sorted.list + begin; at < last_point; at++) {
+            intervals_us[num_intervals++] = at[1].time_us - at->time_us;
         }
         size_t first = index_of_time_from(times, sorted.list[begin].time_us - ALIGNMENT_LEAST_US);
         size_t last = index_of_time_from(times, sorted.list[end - 1].time_us - ALIGNMENT_LEAST_US);
