@@ -235,23 +235,18 @@ struct rho_tracker_look {
 #define RHO_LEARN_RATES (RHO_DOPPLER_NOTCH ? 16 : 1)
 
 /*
- * Noise and detection probability of a described sensor, learned from its tracks with the gate
- * best. Both begin at the stated values, and are used where they surely differ: sigmas by more than
- * an eighth, within the bounds of the config; pd only where it is less. Noise is learned from
- * tracks that this sensor alone has seen, pd from tracks that this sensor saw last.
+ * Noise of a described sensor, learned from tracks that this sensor alone has seen, with the gate
+ * best. It begins at the stated one, and is used where it surely differs: sigmas by more than an
+ * eighth, within the bounds of the config.
  */
 struct rho_tracker_learned {
     /* ln of learned over stated variance of plots, along the line of sight and across it */
     float log_noise[2];
     uint16_t innovations; /* innovations that log_noise was learned from; stops at 1000 */
-    /* by ring of range: looks after a look with a plot, and those with a plot; halved at 1000 */
-    uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
-    uint8_t is_lowered; /* bit i: the learned pd is used in ring i */
-    uint8_t ring;       /* ring whose pd is tested next, one ring a scan */
     /*
      * looks and hits by interval of range rate, for a sensor of which no notch was stated. Where pd
      * in the first blind_rates intervals is far below that at faster ones, the sensor has a notch
-     * there, which is used as if it were stated (gate best); its looks do not count in the rings
+     * there, which is used as if it were stated (gate best); its looks do not count for pd
      */
     unsigned blind_rates : 5;       /* intervals of the learned notch; 0: no notch */
     unsigned used_rates : 5;        /* those that the sensor's notch_mps covers now; 0: none */
@@ -275,6 +270,12 @@ struct rho_tracker_pace {
 
 #define RHO_OCTANTS 8 /* of azimuth, from +x (east) on */
 
+/* Hits at a place of a sensor, and those that were expected there by its P_D elsewhere. */
+struct rho_pd_place {
+    float hits, expected;
+    float excess; /* their ratio less 1; 0: none, but for chance */
+};
+
 /*
  * All that a tracker holds of one sensor. A sensor that is heard without a description has a row,
  * too, as long as there is room: a described sensor takes the place of the undescribed one that was
@@ -289,8 +290,7 @@ struct rho_tracker_sensor {
     struct rho_tracker_look look; /* count 0: it has sent no scan of plots */
     struct rho_second_plots second_plots;
     float looks, hits; /* looks at confirmed tracks, and their probable hits */
-    /* by octant of azimuth: hits of plots, and those that were expected before octants */
-    float octant_hits[RHO_OCTANTS], octant_expected[RHO_OCTANTS];
+    struct rho_pd_place rings[RHO_LEARN_RINGS], octants[RHO_OCTANTS]; /* of range; of azimuth */
 };
 
 /* Groups of a scan's plots, each of one target (body.h); valid within a step only. */

@@ -10,7 +10,7 @@ static void push_scan(struct rho_tracker *tracker, const struct rho_look *look)
     held.num_plots = look->num_gated;
     if (look->sensor) {
         sensor = *look->sensor;
-        sensor.pd = rho_learning_mean_pd(look);
+        sensor.pd = look->pd;
     }
     /* the push cannot fail: the step has checked the pointers and the time */
     (void)!rho_initiator_push(look->initiator, &held, look->sensor ? &sensor : 0, look->fates,

@@ -31,29 +31,28 @@ unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_ca
 }
 
 /*
- * Row of the lowest tentative track below the score, which gives way to a new one; RHO_MAX_TRACKS:
- * none. Rank: the score, or, after coast_scans_max misses in a row, its fall from the maximum.
+ * Row of the tentative track whose target exists least probably, which gives way to a new one that
+ * exists more probably; RHO_MAX_TRACKS: none.
  */
-static unsigned lowest_tentative(const struct rho_tracker *tracker, int32_t score_mnat)
+static unsigned least_tentative(const struct rho_tracker *tracker, float least)
 {
-    unsigned lowest = RHO_MAX_TRACKS;
+    unsigned found = RHO_MAX_TRACKS;
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        const int hides = track->misses_in_row >= tracker->config.coast_scans_max;
-        const int32_t rank = hides ? track->score_mnat - track->score_max_mnat : track->score_mnat;
-        if (track->status == RHO_TRACK_TENTATIVE && rank < score_mnat) {
-            score_mnat = rank;
-            lowest = i;
+        if (track->status == RHO_TRACK_TENTATIVE && track->visible + track->hidden < least) {
+            least = track->visible + track->hidden;
+            found = i;
         }
     }
-    return lowest;
+    return found;
 }
 
 int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
     if (tracker->num_tracks == RHO_MAX_TRACKS) {
-        const unsigned lowest = lowest_tentative(tracker, track->score_mnat);
+        const unsigned lowest =
+            least_tentative(tracker, rho_life_at_start(track->score_mnat, confirm_mnat));
         tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
         if (lowest == RHO_MAX_TRACKS) {
             rho_track_free_hypotheses(track, &step->look.model);
@@ -117,7 +116,8 @@ static enum rho_status check_room(const struct step *step, int32_t score_mnat)
     struct rho_tracker *tracker = step->tracker;
     if (tracker->num_tracks < RHO_MAX_TRACKS ||
         (step->report->num_ended < RHO_MAX_TRACKS &&
-         lowest_tentative(tracker, score_mnat) < RHO_MAX_TRACKS)) {
+         least_tentative(tracker, rho_life_at_start(score_mnat, tracker->confirm_mnat)) <
+             RHO_MAX_TRACKS)) {
         return RHO_OK;
     }
     tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);

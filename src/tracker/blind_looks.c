@@ -35,7 +35,7 @@ static float blind_look_probability(const struct rho_look *look, const struct rh
 void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look)
 {
     look->notch_look = (struct rho_notch_look){
-        .pd = rho_exp(look->log_pd),
+        .pd = look->pd,
         .may_stand = tracker->config.v_min_mps <= look->sensor->notch_mps,
     };
     for (unsigned row = 0; row < tracker->num_tracks; row++) {

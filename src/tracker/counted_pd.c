@@ -1,14 +1,40 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * counted_pd: the P_D of a sensor by its looks at confirmed tracks, and by octant of azimuth.
+ * counted_pd: the P_D of a sensor by its looks at confirmed tracks: of all, and by place.
  *
- * The stated P_D counts as a few looks beside them, so that a sensor that sees less than it states,
- * or does so in a sector, takes it out on itself and not on the tracks.
+ * The stated P_D counts as a few looks beside them, so that a sensor that sees less than it states
+ * takes it out on itself and not on the tracks. A place is a ring of range and an octant of
+ * azimuth. Each has the hits there over those that were expected before it: P_D at a place is that
+ * of all looks, times the ratios of its ring and its octant where they are not 1 by chance.
  */
+#include <string.h>
+
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "sensors.h"
 #include "sight.h"
+
+static int is_pd_learned(const struct rho_look *look)
+{
+    return look->row && look->tracker->config.learn_pd_min < 1.0f;
+}
+
+static float stated_pd(const struct rho_look *look)
+{
+    return look->sensor ? look->sensor->pd : look->tracker->config.pd;
+}
+
+static float limit_pd(const struct rho_tracker *tracker, float stated, float pd)
+{
+    return rho_larger(rho_smaller(pd, PD_MOST), tracker->config.learn_pd_min * stated);
+}
+
+static float pd_of_all(const struct rho_tracker *tracker, const struct rho_tracker_sensor *row,
+                       float stated)
+{
+    const float pd = (row->hits + STATED_LOOKS * stated) / (row->looks + STATED_LOOKS);
+    return limit_pd(tracker, stated, pd);
+}
 
 /* Adds to a pair of counts, which are halved where there are more than `most`. */
 static void add_counts(float *of, float *hits, float most, float more, float more_hits)
@@ -25,40 +51,60 @@ void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit)
 
 void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row)
 {
-    float pd = look->sensor ? look->sensor->pd : look->tracker->config.pd;
-    const float least = look->tracker->config.learn_pd_min * pd;
+    look->pd = stated_pd(look);
     if (row && look->tracker->config.learn_pd_min < 1.0f) {
-        pd = (row->hits + STATED_LOOKS * pd) / (row->looks + STATED_LOOKS);
-        pd = rho_larger(rho_smaller(pd, PD_MOST), least);
+        look->pd = pd_of_all(look->tracker, row, look->pd);
     }
-    look->log_pd = rho_log(pd);
-    look->log_miss = rho_log(1.0f - pd);
+    look->log_pd = rho_log(look->pd);
+    look->log_miss = rho_log(1.0f - look->pd);
 }
 
-/* Octant of a track's azimuth from the look's sensor, counter-clockwise from +x. */
-static unsigned octant_of(const struct rho_look *look, const struct rho_track *track)
+/* Where a track is, seen from the look's sensor. */
+struct place {
+    struct rho_pd_place *ring, *octant;
+};
+
+static struct place place_of(const struct rho_look *look, const struct rho_track *track)
 {
-    const float dx_m = track->kalman.state[0] - (look->sensor ? look->sensor->x_m : 0.0f);
-    const float dy_m = track->kalman.state[1] - (look->sensor ? look->sensor->y_m : 0.0f);
+    const struct rho_sensor *sensor = look->sensor;
+    const float dx_m = track->kalman.state[0] - (sensor ? sensor->x_m : 0.0f);
+    const float dy_m = track->kalman.state[1] - (sensor ? sensor->y_m : 0.0f);
+    const float far_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    const float most_m = sensor ? sensor->range_max_m : far_m;
     const unsigned steep = rho_magnitude(dy_m) > rho_magnitude(dx_m);
     const unsigned quarter = dy_m >= 0.0f ? (dx_m >= 0.0f ? 0u : 1u) : dx_m < 0.0f ? 2u : 3u;
-    return 2u * quarter + (quarter % 2u == 0u ? steep : 1u - steep);
+    return (struct place){
+        &look->row->rings[far_m < most_m ? (unsigned)(far_m / most_m * (float)RHO_LEARN_RINGS)
+                                         : RHO_LEARN_RINGS - 1u],
+        &look->row->octants[2u * quarter + (quarter % 2u == 0u ? steep : 1u - steep)]};
 }
 
-struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track,
-                                  struct detection elsewhere)
+static float pd_at(const struct rho_look *look, const struct place *at)
 {
-    if (!look->row || !(look->tracker->config.learn_pd_min < 1.0f)) {
-        return elsewhere;
+    const float ratio = (1.0f + at->ring->excess) * (1.0f + at->octant->excess);
+    return ratio < 1.0f || ratio > 1.0f
+               ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
+               : look->pd;
+}
+
+struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track)
+{
+    struct detection of_all = {look->log_pd, look->log_miss};
+    if (is_pd_learned(look)) {
+        const struct place at = place_of(look, track);
+        const float pd = pd_at(look, &at);
+        if (pd < look->pd || pd > look->pd) {
+            return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
+        }
     }
-    const unsigned octant = octant_of(look, track);
-    const float ratio = (rho_larger(look->row->octant_hits[octant], 0.0f) + OCTANT_HITS) /
-                        (rho_larger(look->row->octant_expected[octant], 0.0f) + OCTANT_HITS);
-    if (ratio > 1.0f - OCTANT_SAME && ratio < 1.0f + OCTANT_SAME) {
-        return elsewhere;
-    }
-    const float pd = rho_smaller(ratio * rho_exp(elsewhere.log_pd), PD_MOST);
-    return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
+    return of_all;
+}
+
+static void count_at(struct rho_pd_place *place, float expected, float hits)
+{
+    add_counts(&place->expected, &place->hits, COUNTED_LOOKS_MAX / 4.0f, expected, hits);
+    const float excess = (place->hits - place->expected) / (place->expected + PLACE_HITS);
+    place->excess = excess > -PLACE_SAME && excess < PLACE_SAME ? 0.0f : excess;
 }
 
 void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
@@ -67,12 +113,49 @@ void rho_pd_count_place(const struct rho_look *look, const struct rho_track *tra
     if (track->blind_percent > BLIND_PERCENT_MAX) {
         return;
     }
-    const struct detection ring =
-        rho_learning_detection(look, track, (struct detection){look->log_pd, look->log_miss});
-    const float pd = rho_exp(rho_pd_detection(look, track, ring).log_pd);
+    const struct place at = place_of(look, track);
+    const float pd = is_pd_learned(look) ? pd_at(look, &at) : look->pd;
     const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd) / ratio, 0.0f);
-    const unsigned octant = octant_of(look, track);
-    add_counts(&look->row->octant_expected[octant], &look->row->octant_hits[octant],
-               COUNTED_LOOKS_MAX / 4.0f, visible * rho_exp(ring.log_pd), visible * hit);
+    const float expected = visible * look->pd, of_octant = 1.0f + at.octant->excess;
+    count_at(at.octant, expected * (1.0f + at.ring->excess), visible * hit);
+    count_at(at.ring, expected * of_octant, visible * hit);
     rho_pd_count(look->row, visible, hit);
+}
+
+void rho_pd_forget(struct rho_tracker_sensor *row)
+{
+    row->looks = row->hits = 0.0f;
+    memset(row->rings, 0, sizeof row->rings);
+    memset(row->octants, 0, sizeof row->octants);
+}
+
+float rho_pd_in_ring(const struct rho_tracker *tracker, const struct rho_tracker_sensor *row,
+                     unsigned ring)
+{
+    const float stated = row->sensor.pd;
+    if (!(tracker->config.learn_pd_min < 1.0f)) {
+        return stated;
+    }
+    const float of_all = pd_of_all(tracker, row, stated);
+    const float pd = limit_pd(tracker, stated, of_all * (1.0f + row->rings[ring].excess));
+    return rho_magnitude(pd - stated) < PLACE_SAME * stated ? stated : pd;
+}
+
+static int is_sound_place(const struct rho_pd_place *place)
+{
+    return rho_is_within(place->hits, 0.0f, 1e9f) && rho_is_within(place->expected, 0.0f, 1e9f) &&
+           rho_is_within(place->excess, -1.0f, 1e9f);
+}
+
+int rho_pd_is_sound(const struct rho_tracker_sensor *row)
+{
+    int is_sound =
+        rho_is_within(row->looks, 0.0f, 1e9f) && rho_is_within(row->hits, 0.0f, row->looks);
+    for (unsigned i = 0; i < RHO_LEARN_RINGS; i++) {
+        is_sound &= is_sound_place(&row->rings[i]);
+    }
+    for (unsigned i = 0; i < RHO_OCTANTS; i++) {
+        is_sound &= is_sound_place(&row->octants[i]);
+    }
+    return is_sound;
 }

@@ -68,7 +68,7 @@ struct rho_look {
     uint32_t in_view[(RHO_MAX_TRACKS + 31) / 32];
     struct rho_extent boxes[RHO_PLOT_BOXES]; /* bounding boxes of runs of successive plots */
     uint32_t plots_of_box;                   /* plots in each run */
-    float log_pd, log_miss;                  /* ln of pd and of 1 - pd, outside of the notch */
+    float pd, log_pd, log_miss;              /* P_D outside of the notch; ln of it, and of 1 - it */
     float log_false_bearings;                /* ln of the density of false bearings a radian */
     struct rho_notch_look notch_look; /* what a sensor with a Doppler notch sees; 0: no notch */
     /* ln of the intervals in which clutter is uniform: height, m; velocity on one axis, m/s */

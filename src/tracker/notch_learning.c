@@ -76,8 +76,8 @@ static unsigned count_blind_intervals(const struct rho_tracker_learned *learned)
     return 0;
 }
 
-int rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
-                            unsigned is_seen)
+void rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
+                             unsigned is_seen)
 {
     struct rho_tracker_learned *learned = look->learned;
     unsigned rate = RHO_LEARN_RATES - 1u; /* where the range rate is not defined */
@@ -100,7 +100,7 @@ int rho_learning_count_rate(const struct rho_look *look, const struct rho_track 
         *hits = (uint8_t)(*hits / 2u);
     }
     if (*looks % LOOKS_A_NOTCH != 0) {
-        return rate >= learned->blind_rates;
+        return;
     }
     const unsigned found =
         learned->notches_forgotten < FORGOTTEN_MAX ? count_blind_intervals(learned) : 0u;
@@ -108,14 +108,9 @@ int rho_learning_count_rate(const struct rho_look *look, const struct rho_track 
         learned->notches_forgotten = (learned->notches_forgotten + 1u) & FORGOTTEN_MAX;
     }
     if (found > learned->blind_rates) {
-        /* the pd of the rings was learned with targets in the notch: it begins anew */
-        learned->is_lowered = 0;
-        for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-            learned->looks[ring] = learned->hits[ring] = 0;
-        }
+        rho_pd_forget(look->row); /* it was learned with targets in the notch */
     }
     learned->blind_rates = found & 31u;
-    return rate >= learned->blind_rates;
 }
 
 float rho_learning_notch_mps(const struct rho_sensor *sensor,

@@ -64,8 +64,8 @@
  */
 #define LOG_NOISE_MAX 4.6f
 /*
- * Memory: looks of a ring, second plots and echoes at which sums are halved, innovations at which
- * their count stops; with a tenth of them noise is used, as ln f then varies by a tenth. Half: what
+ * Memory: second plots and echoes at which sums are halved, innovations at which their count
+ * stops; with a tenth of them noise is used, as ln f then varies by a tenth. Half: what
  * was learned is less exact. Twice: changes are learned late.
  */
 #define LEARNED_MAX 1000
@@ -82,8 +82,8 @@
 #define AS_STATED 0.25f
 #define CHANCE 4.0f
 /*
- * Largest share of blind looks, per cent, at which a look teaches the pd of a ring. Half: slow
- * targets teach nothing. Twice: misses in the notch lower the pd of the ring.
+ * Largest share of blind looks, per cent, at which a look teaches P_D. Half: slow targets teach
+ * nothing. Twice: misses in the notch lower P_D.
  */
 #define BLIND_PERCENT_MAX 2
 
@@ -95,25 +95,11 @@
  */
 #define STATED_LOOKS 4.0f
 #define COUNTED_LOOKS_MAX 2000.0f
-/* Hits beside an octant's; ratio that is 1. Half: chance makes octants. Twice: found late. */
-#define OCTANT_HITS 20.0f
-#define OCTANT_SAME 0.1f
+/* Hits beside a place's; excess that is none. Half: chance makes places. Twice: found late. */
+#define PLACE_HITS 20.0f
+#define PLACE_SAME 0.1f
 /* Largest learned P_D. Half: hits are worth less. Twice: one miss ends a track. */
 #define PD_MOST 0.98f
-
-/* learned_pd.c */
-
-/*
- * Prior weight, in looks, of the pd of all rings for one ring; and of the stated pd for all rings.
- * Half: few looks lower the pd of a ring. Twice: a ring with few targets keeps the pd of all.
- */
-#define PRIOR_OF_RING 20.0f
-#define PRIOR_OF_ALL (PRIOR_OF_RING * 1.5f)
-/*
- * Standard deviations by which the learned pd must be below the stated one to be used. Half: one
- * ring in ten is lowered by chance. Twice: a pd that is a little lower is found late.
- */
-#define PD_SURELY 2.5f
 
 /* notch_learning.c */
 

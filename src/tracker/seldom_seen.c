@@ -59,7 +59,7 @@ void rho_evidence_update(struct step *step)
         sensors += tracker->sensors[i].pace.is_heard ? 1.0f : 0.0f;
     }
     /* evidence that a miss takes from a track, by those of tracks with TEACHER_HITS */
-    const float pd = rho_exp(look->log_pd);
+    const float pd = look->pd;
     float hits = PRIOR_LOOKS * pd, misses = PRIOR_LOOKS * (1.0f - pd);
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];

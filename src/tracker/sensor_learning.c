@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * sensor_learning: estimates the noise, the detection probability and the Doppler notch of a sensor
- * from established tracks, where they differ from the stated ones.
+ * sensor_learning: estimates the noise and the Doppler notch of a sensor from established tracks,
+ * where they differ from the stated ones.
  *
  * Noise: when a steady track claims a plot, its innovation v on an axis, along the line of sight or
  * across it, has the variance p + f r: p of the steady filter's prediction, r of the plot's stated
@@ -15,9 +15,6 @@
  * Tracks that two sensors have seen are left out: a bias of one sensor would look like noise of the
  * other. Where the noise is more than about 2.5 times the stated one, tracks seem to manoeuvre all
  * the time and teach little: `rhotrack calibrate` finds such noise.
- *
- * P_D by ring: of all looks that follow a look with a plot, the share with a plot. One without is
- * counted when the track is seen again, the first of several alone. It is never above the stated.
  */
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
@@ -29,15 +26,15 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 enum { SHOWN_PER_SIGMA = 16 };              /* units of track->shown for one sigma */
 #define SIGMAS_MAX ((float)INT8_MAX / SHOWN_PER_SIGMA)
 
+int rho_learning_is_on(const struct rho_tracker_config *config)
+{
+    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
+}
+
 static int is_noise_learning_on(const struct rho_tracker_config *config)
 {
     return rho_learning_is_on(config) &&
            (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
-}
-
-static int is_pd_learning_on(const struct rho_tracker_config *config)
-{
-    return config->learn_pd_min < 1.0f;
 }
 
 static float usable_sigma_factor(const struct rho_tracker *tracker,
@@ -175,29 +172,17 @@ static void learn_noise_from_plot(const struct rho_look *look, struct rho_track 
 }
 
 /* Counts the look after a hit when the sensor next sees the track, by whether it had missed it. */
-static void learn_pd_from_look(const struct rho_look *look, struct rho_track *track, int is_seen)
+static void learn_rate_from_look(const struct rho_look *look, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == look->scan->sensor_id;
-    if (!is_pd_learning_on(&look->tracker->config)) {
-        return;
-    }
-    if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
-        if (is_own && rho_learning_seeks_notch(look)) {
-            (void)rho_learning_count_rate(look, track, is_seen != 0);
+    if (track->blind_percent > BLIND_PERCENT_MAX) {
+        if (is_own) {
+            rho_learning_count_rate(look, track, is_seen != 0);
         }
         return;
     }
-    const unsigned is_hit = track->has_shown & IS_MISSED ? 0u : 1u;
-    if (is_seen && is_own &&
-        (!rho_learning_seeks_notch(look) || rho_learning_count_rate(look, track, is_hit))) {
-        const unsigned ring = rho_learning_ring(look->sensor, track);
-        uint16_t *looks = &look->learned->looks[ring], *hits = &look->learned->hits[ring];
-        *looks = (uint16_t)(*looks + 1u);
-        *hits = (uint16_t)(*hits + is_hit);
-        if (*looks >= LEARNED_MAX) {
-            *looks = (uint16_t)(*looks / 2u);
-            *hits = (uint16_t)(*hits / 2u);
-        }
+    if (is_seen && is_own) {
+        rho_learning_count_rate(look, track, track->has_shown & IS_MISSED ? 0u : 1u);
     }
     track->has_shown &= (uint8_t)~IS_MISSED;
     track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
@@ -211,6 +196,7 @@ void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *
     if (look->is_suspect || !look->teaches || !learned || !rho_learning_is_on(&tracker->config)) {
         return;
     }
+    const int seeks_notch = rho_learning_seeks_notch(look);
     const float factors[2] = {rho_exp(learned->log_noise[0]), rho_exp(learned->log_noise[1])};
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
@@ -224,34 +210,20 @@ void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *
             track->maneuver_probability < MANEUVER_MAX) {
             learn_noise_from_plot(look, track, &look->scan->plots[plot], factors);
         }
-        if (plot != RHO_ASSIGNMENT_NONE ||
-            (!look->has_more_parts && rho_look_may_miss(look, track))) {
-            learn_pd_from_look(look, track, plot != RHO_ASSIGNMENT_NONE);
+        if (seeks_notch && (plot != RHO_ASSIGNMENT_NONE ||
+                            (!look->has_more_parts && rho_look_may_miss(look, track)))) {
+            learn_rate_from_look(look, track, plot != RHO_ASSIGNMENT_NONE);
         }
-    }
-    if (is_pd_learning_on(&tracker->config) && !look->has_more_parts) {
-        /* in one ring of range, another one each scan: is the learned pd below the stated one? */
-        const float stated = look->sensor->pd;
-        const float pd = rho_learning_pd_in_ring(&tracker->config, learned, stated, learned->ring);
-        const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
-        learned->is_lowered = (uint8_t)(others | (pd < stated ? bit : 0u));
-        learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
     }
 }
 
 int rho_learning_is_sound(const struct rho_tracker_learned *learned)
 {
-    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        if (learned->hits[ring] > learned->looks[ring] || learned->looks[ring] > LEARNED_MAX) {
-            return 0;
-        }
-    }
     return (!RHO_DOPPLER_NOTCH || rho_learning_is_sound_notch(learned)) &&
            (!RHO_SHARES_PLOTS || rho_cell_is_sound(learned)) &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
-           learned->innovations <= LEARNED_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
-           learned->ring < RHO_LEARN_RINGS;
+           learned->innovations <= LEARNED_MAX;
 }
 
 enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t sensor_id,
@@ -272,14 +244,12 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         .range_factor = usable_sigma_factor(tracker, learned, 0),
         .cross_factor = usable_sigma_factor(tracker, learned, 1),
         .innovations = learned->innovations,
+        .looks = (uint32_t)tracker->sensors[row].looks,
         .resolution_range_sigmas = RHO_SHARES_PLOTS ? rho_cell_learned_sigmas(learned, 0) : 0.0f,
         .resolution_cross_sigmas = RHO_SHARES_PLOTS ? rho_cell_learned_sigmas(learned, 1) : 0.0f,
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        known->pd[ring] = learned->is_lowered >> ring & 1u
-                              ? rho_learning_pd_in_ring(&tracker->config, learned, sensor->pd, ring)
-                              : sensor->pd;
-        known->looks += learned->looks[ring];
+        known->pd[ring] = rho_pd_in_ring(tracker, &tracker->sensors[row], ring);
     }
     return RHO_OK;
 }

@@ -27,7 +27,7 @@ float rho_health_sigma_factor(struct rho_tracker *tracker, struct rho_look *look
 void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look);
 
 /*
- * sensor_learning.c: noise, pd and notch of a sensor, estimated from established tracks. Noise is
+ * sensor_learning.c: noise and notch of a sensor, estimated from established tracks. Noise is
  * set before plots are gated, and learned between assignment and update. suspicion: factor of
  * sensor_health on the sigmas of a suspect sensor, else 1
  */
@@ -36,28 +36,23 @@ void rho_learning_write_noise(const struct rho_look *look, float suspicion,
                               struct rho_sensor *sensor);
 /* notch_learning.c (RHO_DOPPLER_NOTCH): writes the learned notch where none is stated */
 void rho_learning_apply_notch(const struct rho_look *look);
-/* Learns noise, pd and notch of the scan's sensor from this scan's plots and misses. */
+/* Learns noise and notch of the scan's sensor from this scan's plots and misses. */
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look);
 int rho_learning_is_sound(const struct rho_tracker_learned *learned);
 
-/* learned_pd.c: sensors are learned with hypotheses alone: else manoeuvres count as noise */
+/* Sensors are learned with hypotheses alone: else manoeuvres count as noise. */
 int rho_learning_is_on(const struct rho_tracker_config *config);
-/* Ring of range in which a track is. */
-unsigned rho_learning_ring(const struct rho_sensor *sensor, const struct rho_track *track);
-/* pd that is used in a ring: the learned one where it is surely below the stated one. */
-float rho_learning_pd_in_ring(const struct rho_tracker_config *config,
-                              const struct rho_tracker_learned *learned, float stated,
-                              unsigned ring);
-/* Detection of a track by its ring of range, where pd is learned to be lower; else as stated. */
-struct detection rho_learning_detection(const struct rho_look *look, const struct rho_track *track,
-                                        struct detection stated);
-/* Detection probability of the look's sensor over all ranges, for its initiator. */
-float rho_learning_mean_pd(const struct rho_look *look);
+/* counted_pd.c: counts begin anew */
+void rho_pd_forget(struct rho_tracker_sensor *row);
+int rho_pd_is_sound(const struct rho_tracker_sensor *row);
+/* P_D in a ring of range of a described sensor; as stated, but for a tenth. */
+float rho_pd_in_ring(const struct rho_tracker *tracker, const struct rho_tracker_sensor *row,
+                     unsigned ring);
 
 /* notch_learning.c (RHO_DOPPLER_NOTCH): true where a notch is learned of the look's sensor */
 int rho_learning_seeks_notch(const struct rho_look *look);
-/* Counts a look in the interval of the track's range rate; 1: it is outside of the notch. */
-int rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
+/* Counts a look in the interval of the track's range rate. */
+void rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
                             unsigned is_seen);
 /* Width of the learned notch, m/s; 0: none. */
 float rho_learning_notch_mps(const struct rho_sensor *sensor,

@@ -25,11 +25,7 @@ int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track
 
 struct detection rho_look_visible(const struct rho_look *look, const struct rho_track *track)
 {
-    struct detection seen = {look->log_pd, look->log_miss};
-    seen = rho_learning_detection(look, track, seen);
-    if (look->scan) {
-        seen = rho_pd_detection(look, track, seen);
-    }
+    struct detection seen = rho_pd_detection(look, track);
     if (RHO_DOPPLER_NOTCH && track->blind_percent > 0) {
         seen = rho_notch_detection(look, track, seen);
     }

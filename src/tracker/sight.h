@@ -17,11 +17,11 @@ struct detection {
 void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row);
 /* Counts a look at a track, `visible` of which a hit is expected, as a hit by a probability. */
 void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit);
-/* The same of plots, for the track's octant, too; ratio: G of track_life.c, which tells a hit. */
+/* The same of plots, by the track's place, too; ratio: G of track_life.c, which tells a hit. */
 void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
                         float ratio);
-struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track,
-                                  struct detection elsewhere);
+/* Detection at a track's place, outside of the notch. */
+struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track);
 
 /* Limit of the evidence of one look: beyond it nothing changes, and powers stay finite. */
 #define RHO_LOOK_LIMIT_NAT 30.0f

@@ -27,7 +27,9 @@ int rho_retrodiction_accepts(const struct rho_look *look);
 /* Then tracks, step and report return to the newest time, or end. 0: the scan was in sequence. */
 int rho_retrodiction_return(struct step *step);
 
-/* track_life.c: the life of a new track begins; confirm_mnat: score at which tracks are shown */
+/* track_life.c: probability that a new track of this score exists, shown from confirm_mnat on */
+float rho_life_at_start(int32_t score_mnat, int32_t confirm_mnat);
+/* The life of a new track begins. */
 void rho_life_begin(struct rho_track *track, int64_t time_us, int32_t confirm_mnat);
 /* Least score of tracks that were never confirmed. */
 int32_t rho_life_least_mnat(const struct rho_tracker *tracker);

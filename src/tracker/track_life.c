@@ -77,12 +77,16 @@ static float limited_exp(float nat)
     return rho_exp(rho_smaller(rho_larger(nat, -RHO_LOOK_LIMIT_NAT), RHO_LOOK_LIMIT_NAT));
 }
 
+float rho_life_at_start(int32_t score_mnat, int32_t confirm_mnat)
+{
+    const float nat = rho_smaller(0.001f * (float)(score_mnat - confirm_mnat), START_MAX_NAT);
+    const float odds = CONFIRMED_ODDS * limited_exp(nat);
+    return odds / (1.0f + odds);
+}
+
 void rho_life_begin(struct rho_track *track, int64_t time_us, int32_t confirm_mnat)
 {
-    const float nat =
-        rho_smaller(0.001f * (float)(track->score_mnat - confirm_mnat), START_MAX_NAT);
-    const float odds = CONFIRMED_ODDS * limited_exp(nat);
-    track->visible = odds / (1.0f + odds);
+    track->visible = rho_life_at_start(track->score_mnat, confirm_mnat);
     track->hidden = 0.0f;
     track->lived_us = time_us;
     track->look_nat = 0.0f;
@@ -203,18 +207,17 @@ static float often_nat(float ratio)
 
 /* Counts for P_D; and evidence that it is a target, not an object that is seldom seen. */
 static void count_seen_or_missed(struct rho_tracker *tracker, const struct rho_look *look,
-                                 struct rho_track *track, float ratio, float blind)
+                                 struct rho_track *track, float ratio, float seeing)
 {
     if (look->row && track->was_confirmed) {
-        rho_pd_count_place(look, track, (1.0f - blind) * track->visible, ratio);
+        rho_pd_count_place(look, track, seeing * track->visible, ratio);
     }
     if (ratio > 1.0f) {
         track->seen_nat += often_nat(ratio);
         tracker->returned += rho_life_is_established(track) ? track->appeared : 0.0f;
     } else {
         /* in misses of a visible target where the sensor has its usual P_D */
-        track->missed +=
-            (1.0f - blind) * often_nat(ratio) / often_nat(1.0f - rho_exp(look->log_pd));
+        track->missed += seeing * often_nat(ratio) / often_nat(1.0f - look->pd);
     }
 }
 
@@ -231,7 +234,7 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             const float gain = visible_gain(track, ratio);
             const float sum = 1.0f + track->visible * gain;
             if (look->scan && look->teaches) { /* bearings do not tell one object from another */
-                count_seen_or_missed(tracker, look, track, ratio, blind);
+                count_seen_or_missed(tracker, look, track, ratio, 1.0f - blind);
             }
             /* a blind look spares a track for as long as it may coast; else it is rather gone */
             const float spared =

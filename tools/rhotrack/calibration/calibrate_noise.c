@@ -349,19 +349,14 @@ static double covered_area_km2(const struct radar_data *radar, bool is_isotropic
 /* ---- pd ---- */
 
 /*
- * The share of looks with a plot, as the tracker has counted it of its last tracks: of looks that
- * follow a look with a plot, once a track is established. One hit and one miss are added, as a
- * share of 1 would end tracks at their first miss.
+ * The share of looks with a plot, as the tracker has counted it of its last tracks. One hit and one
+ * miss are added, as a share of 1 would end tracks at their first miss.
  */
-static struct calibrate_figure pd_by_learned_looks(const struct rho_tracker_learned *learned)
+static struct calibrate_figure pd_by_counted_looks(const struct rho_tracker_sensor *row)
 {
-    double looks = 0.0, hits = 0.0;
+    const double looks = (double)row->looks, hits = (double)row->hits;
     struct calibrate_figure figure = {.is_known = false};
 
-    for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        looks += (double)learned->looks[ring];
-        hits += (double)learned->hits[ring];
-    }
     if (looks >= LOOKS_MIN) {
         const double pd = (hits + 1.0) / (looks + 2.0);
 
@@ -475,7 +470,7 @@ static void estimate_radar(struct register_data *data, size_t radar_number,
     out->area_km2 = covered_area_km2(radar, out->is_isotropic);
     out->figures[CALIBRATE_TURN] = estimate_turn_time(&turns);
     out->figures[CALIBRATE_CLUTTER] = estimate_clutter(data, radar_number, &turns);
-    out->figures[CALIBRATE_PD] = pd_by_learned_looks(&pipeline->node->tracker.sensors[0].learned);
+    out->figures[CALIBRATE_PD] = pd_by_counted_looks(&pipeline->node->tracker.sensors[0]);
     find_speed_extremes(&segments, &out->figures[CALIBRATE_FASTEST],
                         &out->figures[CALIBRATE_SLOWEST]);
     find_innovations(data, radar_number, out, stated);
