@@ -268,12 +268,13 @@ struct rho_tracker_pace {
     int64_t time_us;   /* time of the last such scan */
 };
 
-#define RHO_OCTANTS 8 /* of azimuth, from +x (east) on */
+/* Rings of range, then octants of azimuth, counter-clockwise from +x (east). */
+#define RHO_PD_PLACES (RHO_LEARN_RINGS + 8)
 
-/* Hits at a place of a sensor, and those that were expected there by its P_D elsewhere. */
+/* Looks at visible targets at a place of a sensor, and their hits. */
 struct rho_pd_place {
-    float hits, expected;
-    float excess; /* their ratio less 1; 0: none, but for chance */
+    float looks, hits; /* looks: times the ratio of the other kind of place */
+    float excess;      /* hits over those expected by P_D of all looks, less 1; 0: chance */
 };
 
 /*
@@ -290,7 +291,7 @@ struct rho_tracker_sensor {
     struct rho_tracker_look look; /* count 0: it has sent no scan of plots */
     struct rho_second_plots second_plots;
     float looks, hits; /* looks at confirmed tracks, and their probable hits */
-    struct rho_pd_place rings[RHO_LEARN_RINGS], octants[RHO_OCTANTS]; /* of range; of azimuth */
+    struct rho_pd_place places[RHO_PD_PLACES];
 };
 
 /* Groups of a scan's plots, each of one target (body.h); valid within a step only. */

@@ -39,7 +39,7 @@ static void add_bearing_equation(const struct rho_passive_search *search, unsign
     }
 }
 
-/* Bearings that a fit takes: the nearest of those that no track claimed, of all; the claimed ones. */
+/* Bearings that a fit takes: the nearest unclaimed ones, of all; those that a track claimed. */
 enum fitted { FIT_FREE, FIT_ALL, FIT_CLAIMED };
 
 static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas)
@@ -109,8 +109,8 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     static const float gates[4] = {8.0f, 5.0f, BEARING_GATE_SIGMAS, BEARING_GATE_SIGMAS};
     int goes_on = 1;
     for (unsigned step = 0; step < 4 && goes_on; step++) {
-        struct equations equations =
-            equations_of_bearings(search, state_m, gates[step], include_claimed ? FIT_ALL : FIT_FREE, NULL);
+        struct equations equations = equations_of_bearings(
+            search, state_m, gates[step], include_claimed ? FIT_ALL : FIT_FREE, NULL);
         goes_on = take_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);

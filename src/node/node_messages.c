@@ -160,8 +160,8 @@ int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
 enum rho_status rho_node_life(const struct rho_node *node, uint16_t part, uint8_t *buffer,
                               size_t capacity, size_t *size)
 {
-    return rho_node_is_ready(node) ? rho_publish_life(&node->tracker, node->step, node->epoch, part,
-                                                      buffer, capacity, size)
-           : node                  ? RHO_ERROR_STATE
-                                   : RHO_ERROR_NULL;
+    if (!rho_node_is_ready(node)) {
+        return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
+    }
+    return rho_publish_life(&node->tracker, node->step, node->epoch, part, buffer, capacity, size);
 }

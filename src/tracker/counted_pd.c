@@ -4,7 +4,7 @@
  *
  * The stated P_D counts as a few looks beside them, so that a sensor that sees less than it states
  * takes it out on itself and not on the tracks. A place is a ring of range and an octant of
- * azimuth. Each has the hits there over those that were expected before it: P_D at a place is that
+ * azimuth. Each has the hits there over those that P_D of all looks expects: P_D at a place is that
  * of all looks, times the ratios of its ring and its octant where they are not 1 by chance.
  */
 #include <string.h>
@@ -73,89 +73,81 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
     const float most_m = sensor ? sensor->range_max_m : far_m;
     const unsigned steep = rho_magnitude(dy_m) > rho_magnitude(dx_m);
     const unsigned quarter = dy_m >= 0.0f ? (dx_m >= 0.0f ? 0u : 1u) : dx_m < 0.0f ? 2u : 3u;
-    return (struct place){
-        &look->row->rings[far_m < most_m ? (unsigned)(far_m / most_m * (float)RHO_LEARN_RINGS)
-                                         : RHO_LEARN_RINGS - 1u],
-        &look->row->octants[2u * quarter + (quarter % 2u == 0u ? steep : 1u - steep)]};
+    const unsigned ring =
+        far_m < most_m ? (unsigned)(far_m / most_m * (float)RHO_LEARN_RINGS) : RHO_LEARN_RINGS - 1u;
+    const unsigned octant = 2u * quarter + (quarter % 2u == 0u ? steep : 1u - steep);
+    return (struct place){&look->row->places[ring], &look->row->places[RHO_LEARN_RINGS + octant]};
 }
 
 static float pd_at(const struct rho_look *look, const struct place *at)
 {
     const float ratio = (1.0f + at->ring->excess) * (1.0f + at->octant->excess);
-    return ratio < 1.0f || ratio > 1.0f
-               ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
-               : look->pd;
+    return ratio < 1.0f || ratio > 1.0f ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
+                                        : look->pd;
 }
 
 struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track)
 {
-    struct detection of_all = {look->log_pd, look->log_miss};
-    if (is_pd_learned(look)) {
-        const struct place at = place_of(look, track);
-        const float pd = pd_at(look, &at);
-        if (pd < look->pd || pd > look->pd) {
-            return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
-        }
-    }
-    return of_all;
+    const struct place at = look->row ? place_of(look, track) : (struct place){0};
+    const float pd = is_pd_learned(look) ? pd_at(look, &at) : look->pd;
+    return pd < look->pd || pd > look->pd ? (struct detection){rho_log(pd), rho_log(1.0f - pd)}
+                                          : (struct detection){look->log_pd, look->log_miss};
 }
 
-static void count_at(struct rho_pd_place *place, float expected, float hits)
+/* pd: P_D of all places, by the same looks. */
+static void count_at(struct rho_pd_place *place, float looks, float hits, float pd)
 {
-    add_counts(&place->expected, &place->hits, COUNTED_LOOKS_MAX / 4.0f, expected, hits);
-    const float excess = (place->hits - place->expected) / (place->expected + PLACE_HITS);
+    add_counts(&place->looks, &place->hits, COUNTED_LOOKS_MAX / 4.0f, looks, hits);
+    const float expected = pd * place->looks;
+    const float excess = (place->hits - expected) / (expected + PLACE_HITS);
     place->excess = excess > -PLACE_SAME && excess < PLACE_SAME ? 0.0f : excess;
 }
 
 void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
                         float ratio)
 {
-    if (track->blind_percent > BLIND_PERCENT_MAX) {
+    if (track->blind_percent > BLIND_PERCENT_MAX || !is_pd_learned(look)) {
         return;
     }
     const struct place at = place_of(look, track);
-    const float pd = is_pd_learned(look) ? pd_at(look, &at) : look->pd;
-    const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd) / ratio, 0.0f);
-    const float expected = visible * look->pd, of_octant = 1.0f + at.octant->excess;
-    count_at(at.octant, expected * (1.0f + at.ring->excess), visible * hit);
-    count_at(at.ring, expected * of_octant, visible * hit);
+    const float hit =
+        rho_larger(1.0f - (1.0f - track->seen_share * pd_at(look, &at)) / ratio, 0.0f);
+    const float at_ring = visible * (1.0f + at.octant->excess);
+    const float at_octant = visible * (1.0f + at.ring->excess);
     rho_pd_count(look->row, visible, hit);
+    const float pd = look->row->looks > 0.0f ? look->row->hits / look->row->looks : 0.0f;
+    count_at(at.ring, at_ring, visible * hit, pd);
+    count_at(at.octant, at_octant, visible * hit, pd);
 }
 
 void rho_pd_forget(struct rho_tracker_sensor *row)
 {
     row->looks = row->hits = 0.0f;
-    memset(row->rings, 0, sizeof row->rings);
-    memset(row->octants, 0, sizeof row->octants);
+    memset(row->places, 0, sizeof row->places);
 }
 
 float rho_pd_in_ring(const struct rho_tracker *tracker, const struct rho_tracker_sensor *row,
                      unsigned ring)
 {
     const float stated = row->sensor.pd;
-    if (!(tracker->config.learn_pd_min < 1.0f)) {
-        return stated;
-    }
     const float of_all = pd_of_all(tracker, row, stated);
-    const float pd = limit_pd(tracker, stated, of_all * (1.0f + row->rings[ring].excess));
-    return rho_magnitude(pd - stated) < PLACE_SAME * stated ? stated : pd;
+    const float pd = limit_pd(tracker, stated, of_all * (1.0f + row->places[ring].excess));
+    const int is_learned = tracker->config.learn_pd_min < 1.0f;
+    return !is_learned || rho_magnitude(pd - stated) < PLACE_SAME * stated ? stated : pd;
 }
 
 static int is_sound_place(const struct rho_pd_place *place)
 {
-    return rho_is_within(place->hits, 0.0f, 1e9f) && rho_is_within(place->expected, 0.0f, 1e9f) &&
+    return rho_is_within(place->hits, 0.0f, 1e9f) && rho_is_within(place->looks, 0.0f, 1e9f) &&
            rho_is_within(place->excess, -1.0f, 1e9f);
 }
 
 int rho_pd_is_sound(const struct rho_tracker_sensor *row)
 {
-    int is_sound =
-        rho_is_within(row->looks, 0.0f, 1e9f) && rho_is_within(row->hits, 0.0f, row->looks);
-    for (unsigned i = 0; i < RHO_LEARN_RINGS; i++) {
-        is_sound &= is_sound_place(&row->rings[i]);
+    unsigned sound = 0;
+    for (unsigned i = 0; i < RHO_PD_PLACES; i++) {
+        sound += is_sound_place(&row->places[i]) != 0;
     }
-    for (unsigned i = 0; i < RHO_OCTANTS; i++) {
-        is_sound &= is_sound_place(&row->octants[i]);
-    }
-    return is_sound;
+    return sound == RHO_PD_PLACES && rho_is_within(row->looks, 0.0f, 1e9f) &&
+           rho_is_within(row->hits, 0.0f, row->looks);
 }

@@ -26,11 +26,6 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 enum { SHOWN_PER_SIGMA = 16 };              /* units of track->shown for one sigma */
 #define SIGMAS_MAX ((float)INT8_MAX / SHOWN_PER_SIGMA)
 
-int rho_learning_is_on(const struct rho_tracker_config *config)
-{
-    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
-}
-
 static int is_noise_learning_on(const struct rho_tracker_config *config)
 {
     return rho_learning_is_on(config) &&
@@ -175,17 +170,15 @@ static void learn_noise_from_plot(const struct rho_look *look, struct rho_track 
 static void learn_rate_from_look(const struct rho_look *look, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == look->scan->sensor_id;
-    if (track->blind_percent > BLIND_PERCENT_MAX) {
-        if (is_own) {
-            rho_learning_count_rate(look, track, is_seen != 0);
-        }
-        return;
+    const int is_blind = track->blind_percent > BLIND_PERCENT_MAX;
+    const unsigned was_seen = track->has_shown & IS_MISSED ? 0u : 1u;
+    if (is_own && (is_seen || is_blind)) {
+        rho_learning_count_rate(look, track, is_blind ? is_seen != 0 : was_seen);
     }
-    if (is_seen && is_own) {
-        rho_learning_count_rate(look, track, track->has_shown & IS_MISSED ? 0u : 1u);
+    if (!is_blind) {
+        track->has_shown &= (uint8_t)~IS_MISSED;
+        track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
     }
-    track->has_shown &= (uint8_t)~IS_MISSED;
-    track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
 }
 
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look)

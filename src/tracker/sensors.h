@@ -41,7 +41,10 @@ void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *
 int rho_learning_is_sound(const struct rho_tracker_learned *learned);
 
 /* Sensors are learned with hypotheses alone: else manoeuvres count as noise. */
-int rho_learning_is_on(const struct rho_tracker_config *config);
+static inline int rho_learning_is_on(const struct rho_tracker_config *config)
+{
+    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
+}
 /* counted_pd.c: counts begin anew */
 void rho_pd_forget(struct rho_tracker_sensor *row);
 int rho_pd_is_sound(const struct rho_tracker_sensor *row);
@@ -53,7 +56,7 @@ float rho_pd_in_ring(const struct rho_tracker *tracker, const struct rho_tracker
 int rho_learning_seeks_notch(const struct rho_look *look);
 /* Counts a look in the interval of the track's range rate. */
 void rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
-                            unsigned is_seen);
+                             unsigned is_seen);
 /* Width of the learned notch, m/s; 0: none. */
 float rho_learning_notch_mps(const struct rho_sensor *sensor,
                              const struct rho_tracker_learned *learned);

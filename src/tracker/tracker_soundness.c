@@ -74,8 +74,8 @@ static int has_own_slots(const struct rho_tracker *tracker)
 static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
 {
     const struct rho_tracker_pace *pace = &row->pace;
-    return (!is_described || rho_sensors_is_usable(&row->sensor)) &&
-           rho_pd_is_sound(row) && rho_learning_is_sound(&row->learned) && rho_is_within(row->blind, 0.0f, 1.0f) &&
+    return (!is_described || rho_sensors_is_usable(&row->sensor)) && rho_pd_is_sound(row) &&
+           rho_learning_is_sound(&row->learned) && rho_is_within(row->blind, 0.0f, 1.0f) &&
            rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
            rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
            rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&

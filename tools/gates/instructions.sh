@@ -108,7 +108,7 @@ print_counts 'hough, input estimation: places and velocities, 4' 8 - tracker hou
 print_counts 'best: places and velocities, the target alone' 8 - tracker best cartesian 1 1
 print_counts 'best: the same, 4 in the gate' 8 - tracker best cartesian 4 1
 print_counts 'best: polar plots with range rate, the target alone' 8 16000 tracker best polar 1 1
-print_counts 'best: the same, 4 in the gate' 8 77000 tracker best polar 4 1
+print_counts 'best: the same, 4 in the gate' 8 78000 tracker best polar 4 1
 
 print_head 'a radar with 8 tracks and 32 plots a turn, gate best, a step'
 print_counts 'the turn at once' 1 - tracker best polar 4 1

@@ -688,10 +688,11 @@ static void test_invalid_fields_with_a_right_checksum_are_refused(void **state)
     NONSENSE(0, rho_tracker, sensors[0].sensor.pd, float, 2.0f);
     NONSENSE(0, rho_tracker, sensors[0].learned.log_noise[1], float, nan);
     NONSENSE(0, rho_tracker, sensors[0].learned.innovations, uint16_t, 1001);
-    NONSENSE(0, rho_tracker, sensors[0].learned.looks[5], uint16_t, 1001);
-    NONSENSE(0, rho_tracker, sensors[0].learned.hits[0], uint16_t, UINT16_MAX);
-    NONSENSE(0, rho_tracker, sensors[0].learned.is_lowered, uint8_t, 64);
-    NONSENSE(0, rho_tracker, sensors[0].learned.ring, uint8_t, RHO_LEARN_RINGS);
+    NONSENSE(0, rho_tracker, sensors[0].looks, float, nan);
+    NONSENSE(0, rho_tracker, sensors[0].hits, float, 1e8f);
+    NONSENSE(0, rho_tracker, sensors[0].places[5].hits, float, -1.0f);
+    NONSENSE(0, rho_tracker, sensors[0].places[0].looks, float, nan);
+    NONSENSE(0, rho_tracker, sensors[0].places[RHO_PD_PLACES - 1].excess, float, -1.5f);
     NONSENSE(0, rho_tracker, config.learn_noise_min, float, 0.0f);
     NONSENSE(0, rho_tracker, config.learn_noise_max, float, nan);
     NONSENSE(0, rho_tracker, config.learn_pd_min, float, 1.5f);

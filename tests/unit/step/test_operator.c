@@ -105,7 +105,7 @@ static void a_start_needs_room_in_the_report(void **state)
         assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
     }
     tracker.tracks[1].status = RHO_TRACK_TENTATIVE;
-    tracker.tracks[1].score_mnat = -1000000;
+    tracker.tracks[1].visible = 0.1f;
     report.num_ended = RHO_MAX_TRACKS;
     assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_ERROR_CAPACITY);
     assert_int_equal(report.num_ended, RHO_MAX_TRACKS);

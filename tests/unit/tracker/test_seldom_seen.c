@@ -161,7 +161,7 @@ static void the_evidence_needed_equals_its_formula(void **state)
                           .tracker = &tracker,
                           .fates = report.fates,
                           .teaches = 1,
-                          .log_pd = logf(0.8f),
+                          .pd = 0.8f,
                       }};
     const double hit_nat = HIT_NAT, wanted = 3.0 * 1600.0 / 3600.0;
     (void)state;

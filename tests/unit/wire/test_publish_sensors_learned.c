@@ -71,29 +71,23 @@ static void before_learning_values_are_as_stated(void **state)
                      -1); /* the sensor's id is beyond int16_t */
 }
 
-/*
- * Twice the noise in range, and P_D near 0.4 in the last ring: (300 + 20 p) / (800 + 20), with p
- * over all rings.
- */
+/* Twice the noise in range, P_D as stated in most rings, and half of it in the last one. */
 static void learned_values_sent_are_those_in_use(void **state)
 {
     (void)state;
     start_tracker_with_two_sensors();
     tracker.sensors[0].learned.log_noise[0] = 1.3862944f;
     tracker.sensors[0].learned.innovations = 900;
-    tracker.sensors[0].learned.looks[0] = 500;
-    tracker.sensors[0].learned.hits[0] = 375;
-    tracker.sensors[0].learned.looks[5] = 800;
-    tracker.sensors[0].learned.hits[5] = 300;
-    tracker.sensors[0].learned.is_lowered = 1u << 5;
+    tracker.sensors[0].looks = 1300.0f;
+    tracker.sensors[0].hits = 975.0f;
+    tracker.sensors[0].places[5].excess = -0.5f;
     const struct rho_message_learned learned = publish_and_read_sensor(0);
     assert_int_equal(learned.innovations, 900);
     assert_int_equal(learned.looks, 1300);
     assert_float_equal(learned.sigma_range_factor, 2.0f, 1e-5f);
     assert_float_equal(learned.sigma_cross_factor, 1.0f, 0.0f);
     assert_float_equal(learned.pd[0], 0.75f, 0.0f);
-    /* 0.378 observed, plus one standard deviation */
-    assert_float_equal(learned.pd[5], 0.395f, 0.01f);
+    assert_float_equal(learned.pd[5], 0.375f, 1e-5f);
     assert_float_equal(publish_and_read_sensor(1).sigma_range_factor, 1.0f, 0.0f);
 }
 
