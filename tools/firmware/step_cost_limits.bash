@@ -12,7 +12,7 @@ step_cost_limits_of() {
     full) most=168000000 ;;
     en_route) most=420000000 ;;
     marine) most=105000000 ;;
-    traffic) a=2900000 most=4200000 ;;
+    traffic) a=2930000 most=4200000 ;;
     smallest) a=2200000 most=4000000 ;;
     *) return 1 ;;
     esac
