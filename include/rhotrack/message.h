@@ -418,8 +418,8 @@ struct rho_message_learned {
     float range_max_m; /* outer edge of the last ring, m; range 0 .. 1e9 */
     float pd_stated; /* stated detection probability of the sensor; range 0 .. 1 */
     /*
-     * learned detection probability of each ring, the innermost first; below pd_stated where
-     * targets are seen less; range 0 .. 1
+     * learned detection probability of each ring, the innermost first; pd_stated where it is within
+     * a tenth of it; range 0 .. 1
      */
     float pd[6];
 };
@@ -1362,9 +1362,9 @@ RHO_MUST_CHECK enum rho_status rho_message_hypotheses_add(
     struct rho_message_writer *writer, const struct rho_message_hypothesis *hypothese);
 
 /*
- * life_t: lives of a tracker's targets: how often they leave, are hidden and return, as learned,
- * and for each track whether its target exists. All tracks, or a part, once a second. Channel
- * RHO_LIFE.
+ * life_t: lives of a tracker's targets: how often they leave and are hidden, as learned, and
+ * return, and for each track whether its target exists. All tracks, or a part, once a second.
+ * Channel RHO_LIFE.
  */
 
 #define RHO_MESSAGE_LIFE_CHANNEL "RHO_LIFE"
@@ -1381,7 +1381,8 @@ struct rho_message_life {
     int32_t epoch; /* the tracker's boot number, another one after each restart */
     float death_rate; /* at which targets leave; range 0 .. 1 */
     float hide_rate; /* at which visible targets are hidden; range 0 .. 1 */
-    float appear_rate; /* at which hidden targets are visible again; range 0 .. 2 */
+    /* at which hidden targets are visible again, by coast_scans_max; range 0 .. 2 */
+    float appear_rate;
     /*
      * scan intervals that established tracks lived, from which the rates of death and hiding come;
      * old ones fade; range 0 .. 1e9

@@ -47,7 +47,7 @@ struct rho_operator_start {
  * confirmed at once, or tentative where many objects are seldom seen (tracker.h), and ends as
  * others do where no plots follow. It counts as a target's, though it may never move: until it
  * ends, echoes of the clutter map where it is are no clutter, and it may be slower than v_min. A
- * full tracker gives up its lowest tentative track for it.
+ * full tracker gives up the tentative track that most probably has no target.
  * Errors: NULL, STATE (not initialised, no step so far, the report is not the last step's), VALUE
  * (a number outside its range), CAPACITY (no room), and those of rho_track_start. Cost: the report.
  * Stack: 3.1 KB.

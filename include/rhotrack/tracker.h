@@ -473,7 +473,7 @@ struct rho_tracker_known {
     float resolution_range_sigmas, resolution_cross_sigmas;
 };
 
-/* Rates of targets' lives by scan interval, as learned over half an hour (track_life.c). */
+/* Rates of targets' lives by scan interval: learned over half an hour; appear by the config. */
 struct rho_tracker_life {
     float death, hide, appear;
     float lived_scans; /* scans from which they were learned */

@@ -84,7 +84,7 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan);
 
 /*
  * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room, and the
- * track has ended. A full tracker ends its lowest tentative track for a track of a higher score.
+ * track has ended. Of a full tracker the tentative track that exists least ends for a likelier one.
  */
 int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat);
 /*

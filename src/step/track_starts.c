@@ -30,17 +30,14 @@ unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_ca
     return n;
 }
 
-/*
- * Row of the tentative track whose target exists least probably, which gives way to a new one that
- * exists more probably; RHO_MAX_TRACKS: none.
- */
+/* Row of the tentative track that exists least, below this probability; RHO_MAX_TRACKS: none. */
 static unsigned least_tentative(const struct rho_tracker *tracker, float least)
 {
     unsigned found = RHO_MAX_TRACKS;
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->status == RHO_TRACK_TENTATIVE && track->visible + track->hidden < least) {
-            least = track->visible + track->hidden;
+        if (track->status == RHO_TRACK_TENTATIVE && rho_track_existence(track) < least) {
+            least = rho_track_existence(track);
             found = i;
         }
     }

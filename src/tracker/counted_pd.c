@@ -32,8 +32,8 @@ static float limit_pd(const struct rho_tracker *tracker, float stated, float pd)
 static float pd_of_all(const struct rho_tracker *tracker, const struct rho_tracker_sensor *row,
                        float stated)
 {
-    const float pd = (row->hits + STATED_LOOKS * stated) / (row->looks + STATED_LOOKS);
-    return limit_pd(tracker, stated, pd);
+    return limit_pd(tracker, stated,
+                    (row->hits + STATED_LOOKS * stated) / (row->looks + STATED_LOOKS));
 }
 
 /* Adds to a pair of counts, which are halved where there are more than `most`. */
@@ -79,17 +79,16 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
     return (struct place){&look->row->places[ring], &look->row->places[RHO_LEARN_RINGS + octant]};
 }
 
-static float pd_at(const struct rho_look *look, const struct place *at)
+static float pd_at(const struct rho_look *look, struct place at)
 {
-    const float ratio = (1.0f + at->ring->excess) * (1.0f + at->octant->excess);
+    const float ratio = (1.0f + at.ring->excess) * (1.0f + at.octant->excess);
     return ratio < 1.0f || ratio > 1.0f ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
                                         : look->pd;
 }
 
 struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track)
 {
-    const struct place at = look->row ? place_of(look, track) : (struct place){0};
-    const float pd = is_pd_learned(look) ? pd_at(look, &at) : look->pd;
+    const float pd = is_pd_learned(look) ? pd_at(look, place_of(look, track)) : look->pd;
     return pd < look->pd || pd > look->pd ? (struct detection){rho_log(pd), rho_log(1.0f - pd)}
                                           : (struct detection){look->log_pd, look->log_miss};
 }
@@ -110,8 +109,7 @@ void rho_pd_count_place(const struct rho_look *look, const struct rho_track *tra
         return;
     }
     const struct place at = place_of(look, track);
-    const float hit =
-        rho_larger(1.0f - (1.0f - track->seen_share * pd_at(look, &at)) / ratio, 0.0f);
+    const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd_at(look, at)) / ratio, 0.0f);
     const float at_ring = visible * (1.0f + at.octant->excess);
     const float at_octant = visible * (1.0f + at.ring->excess);
     rho_pd_count(look->row, visible, hit);
@@ -132,8 +130,9 @@ float rho_pd_in_ring(const struct rho_tracker *tracker, const struct rho_tracker
     const float stated = row->sensor.pd;
     const float of_all = pd_of_all(tracker, row, stated);
     const float pd = limit_pd(tracker, stated, of_all * (1.0f + row->places[ring].excess));
-    const int is_learned = tracker->config.learn_pd_min < 1.0f;
-    return !is_learned || rho_magnitude(pd - stated) < PLACE_SAME * stated ? stated : pd;
+    return tracker->config.learn_pd_min < 1.0f && rho_magnitude(pd - stated) >= PLACE_SAME * stated
+               ? pd
+               : stated;
 }
 
 static int is_sound_place(const struct rho_pd_place *place)

@@ -64,9 +64,8 @@
  */
 #define LOG_NOISE_MAX 4.6f
 /*
- * Memory: second plots and echoes at which sums are halved, innovations at which their count
- * stops; with a tenth of them noise is used, as ln f then varies by a tenth. Half: what
- * was learned is less exact. Twice: changes are learned late.
+ * Memory: plots and echoes at which sums are halved, innovations at which their count stops; noise
+ * is used from a tenth of them on, as ln f then varies by a tenth. Half: less exact. Twice: late.
  */
 #define LEARNED_MAX 1000
 #define INNOVATIONS_MIN (LEARNED_MAX / 10)

@@ -253,7 +253,7 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
 void rho_life_apply(const struct step *step, struct rho_track *track, int32_t confirm_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
-    const float exists = track->visible + track->hidden;
+    const float exists = rho_track_existence(track);
     const int was_confirmed = track->was_confirmed;
     rho_evidence_count(step, track);
     if (was_confirmed ? exists < (rho_life_is_established(track) ? ENDED : ENDED_NEW)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* publish_life: messages of the lives of tracks: learned rates, and each track's probabilities. */
 #include "message_clamps.h"
-#include "rhotrack/detail/approx.h"
 #include "rhotrack/publish.h"
 
 enum rho_status rho_publish_life(const struct rho_tracker *tracker, int32_t step, int32_t epoch,
@@ -31,10 +30,9 @@ enum rho_status rho_publish_life(const struct rho_tracker *tracker, int32_t step
     for (unsigned i = part * most;
          i < tracker->num_tracks && i < (part + 1u) * most && status == RHO_OK; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        const struct rho_message_track_life message = {
-            .track_id = (int32_t)(track->track_id & INT32_MAX),
-            .existence = rho_smaller(track->visible + track->hidden, 1.0f),
-            .visibility = track->visible};
+        const int32_t id = (int32_t)(track->track_id & INT32_MAX);
+        const struct rho_message_track_life message = {id, rho_track_existence(track),
+                                                       track->visible};
         status = rho_message_life_add(&writer, &message);
     }
     return status == RHO_OK ? rho_message_end(&writer, size) : status;

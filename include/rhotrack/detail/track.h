@@ -136,6 +136,12 @@ struct rho_track {
     struct rho_input input;
 };
 
+/* Probability that the track's target exists, visible or hidden; despite rounding at most 1. */
+static inline float rho_track_existence(const struct rho_track *track)
+{
+    return track->visible + track->hidden < 1.0f ? track->visible + track->hidden : 1.0f;
+}
+
 /* Status that follows by the diagram; an event without an arrow changes nothing. Constant cost. */
 enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                             enum rho_track_event event);

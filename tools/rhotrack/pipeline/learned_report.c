@@ -112,8 +112,7 @@ struct cJSON *learned_report_life_json(const struct rho_tracker *tracker)
         cJSON *probabilities = cJSON_CreateObject();
 
         cJSON_AddNumberToObject(probabilities, "track_id", track->track_id);
-        cJSON_AddNumberToObject(probabilities, "existence",
-                                fmin((double)(track->visible + track->hidden), 1));
+        cJSON_AddNumberToObject(probabilities, "existence", (double)rho_track_existence(track));
         cJSON_AddNumberToObject(probabilities, "visibility", (double)track->visible);
         cJSON_AddItemToArray(list, probabilities);
     }
