@@ -290,6 +290,7 @@ struct rho_tracker_sensor {
     float blind; /* probability that its next look sees no target, as its last one saw none */
     struct rho_tracker_look look; /* count 0: it has sent no scan of plots */
     struct rho_second_plots second_plots;
+    float unclaimed_bearings; /* mean per scan */
     float looks, hits; /* looks at confirmed tracks, and their probable hits */
     struct rho_pd_place places[RHO_PD_PLACES];
 };
@@ -324,7 +325,6 @@ struct rho_tracker {
     /* mean per turn; a clutter density follows from it where no initiator measures one */
     float unclaimed_plots;
     float clutter_per_m2;     /* stated clutter density; 0: none */
-    float unclaimed_bearings; /* mean per scan of a passive sensor */
     struct rho_extent extent; /* rectangle that holds all valid plots so far */
     uint16_t num_sensors;     /* described sensors: the first rows of `sensors` */
     uint16_t num_rows;   /* rows of `sensors` in use; further ones are of undescribed sensors */

@@ -59,7 +59,7 @@ open_look(struct rho_tracker *tracker, const struct rho_passive *passive, struct
     look->bearings = scan;
     look->sensor = sensor;
     /* false bearings: the mean number of unclaimed ones, over the sector or field of view */
-    const float unclaimed = tracker->unclaimed_bearings;
+    const float unclaimed = row ? row->unclaimed_bearings : 0.0f;
     float view_rad = scan->sector_to_rad - scan->sector_from_rad;
     view_rad = view_rad < 0.0f ? view_rad + RHO_TWO_PI : view_rad;
     if (!(view_rad > 0.0f)) {
@@ -129,8 +129,9 @@ struct bearing_mix {
 };
 
 /* Probability that a bearing is not the target's of the track that it was assigned. */
-static float free_share(const struct rho_assignment *assignment, unsigned row, uint32_t i)
+static float free_share(const struct rho_tracker *tracker, unsigned row, uint32_t i)
 {
+    const struct rho_assignment *assignment = &tracker->assignment;
     const int owner = assignment->column_row[i];
     float own = 0.0f, sum = 1.0f;
     if (owner < 0 || owner == (int)row) {
@@ -142,7 +143,7 @@ static float free_share(const struct rho_assignment *assignment, unsigned row, u
         sum += weight;
         own = pair->column == (int)i ? weight : own;
     }
-    return 1.0f - own / sum;
+    return 1.0f - tracker->tracks[owner].visible * own / sum;
 }
 
 /* Bearing from the scan's sensor to where the track is expected at that time. */
@@ -183,7 +184,7 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         if (!score_bearing(look, &gate, track, seen.log_pd, i, &at, &gain_nat)) {
             continue;
         }
-        const float weight = free_share(&tracker->assignment, row, i) *
+        const float weight = free_share(tracker, row, i) *
                              rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
         const int64_t time_us = scan->time_us + bearing->offset_us;
         const float off_rad =
@@ -216,17 +217,16 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
 }
 
 /*
- * Counts the bearings of confirmed tracks that the look covers, before it changes any: a sensor
- * that sees less than it states must not take it out on the tracks.
+ * Counts the bearings of tracks that the look covers, before it changes any: a sensor that sees
+ * less than it states must not take it out on the tracks, nor keep them from being confirmed.
  */
 static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
                      struct rho_tracker_sensor *row)
 {
     const struct rho_bearing_scan *scan = look->bearings;
-    for (unsigned i = 0; row && i < tracker->num_tracks; i++) {
+    for (unsigned i = 0; row && !rho_look_is_full(look) && i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->was_confirmed && track->status != RHO_TRACK_FREE &&
-            rho_look_has_in_view(look, i) &&
+        if (track->status != RHO_TRACK_FREE && rho_look_has_in_view(look, i) &&
             rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
             rho_pd_count(row, track->visible, mix_bearings(tracker, look, i).hit);
         }
@@ -235,7 +235,8 @@ static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
 }
 
 /* A look that tells next to nothing of a track leaves its estimate alone; its score counts all. */
-static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look)
+static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look,
+                               struct rho_tracker_sensor *own)
 {
     float unclaimed = 0.0f;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
@@ -258,7 +259,9 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
     for (uint32_t i = 0; i < look->num_gated; i++) {
         unclaimed += look->fates[i] != RHO_FATE_INVALID ? 1.0f : 0.0f;
     }
-    rho_clutter_smooth_mean(&tracker->unclaimed_bearings, rho_larger(unclaimed, 0.0f));
+    if (own) {
+        rho_clutter_smooth_mean(&own->unclaimed_bearings, rho_larger(unclaimed, 0.0f));
+    }
     rho_life_weigh(tracker, look);
 }
 
@@ -286,7 +289,7 @@ void rho_step_take_frame(struct step *step)
         }
         rho_score_solve(tracker);
         learn_pd(tracker, look, own);
-        update_by_bearings(tracker, look);
+        update_by_bearings(tracker, look, own);
         first = rho_count(first, scan->num_bearings);
         look->num_gated = num_gated;
         look->fates = fates;

@@ -55,6 +55,9 @@ void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row)
     if (row && look->tracker->config.learn_pd_min < 1.0f) {
         look->pd = pd_of_all(look->tracker, row, look->pd);
     }
+    if (rho_look_is_full(look)) {
+        look->pd *= FULL_SHARE;
+    }
     look->log_pd = rho_log(look->pd);
     look->log_miss = rho_log(1.0f - look->pd);
 }
@@ -81,7 +84,8 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
 
 static float pd_at(const struct rho_look *look, struct place at)
 {
-    const float ratio = (1.0f + at.ring->excess) * (1.0f + at.octant->excess);
+    const float ratio =
+        rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
     return ratio < 1.0f || ratio > 1.0f ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
                                         : look->pd;
 }
@@ -97,25 +101,44 @@ struct detection rho_pd_detection(const struct rho_look *look, const struct rho_
 static void count_at(struct rho_pd_place *place, float looks, float hits, float pd)
 {
     add_counts(&place->looks, &place->hits, COUNTED_LOOKS_MAX / 4.0f, looks, hits);
+    place->looks = rho_larger(place->looks, place->hits); /* misses were halved, then taken back */
     const float expected = pd * place->looks;
-    const float excess = (place->hits - expected) / (expected + PLACE_HITS);
+    const float excess =
+        (place->hits - expected) / (expected + PLACE_LOOKS * (1.0f - rho_smaller(pd, PD_MOST)));
     place->excess = excess > -PLACE_SAME && excess < PLACE_SAME ? 0.0f : excess;
 }
 
-void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
+static void count_at_both(const struct rho_look *look, struct place at, float looks, float hits)
+{
+    const float pd = look->row->looks > 0.0f ? look->row->hits / look->row->looks : 0.0f;
+    const float ring = 1.0f + at.ring->excess;
+    count_at(at.ring, looks * (1.0f + at.octant->excess), hits, pd);
+    count_at(at.octant, looks * ring, hits, pd);
+}
+
+static int teaches_place(const struct rho_look *look, const struct rho_track *track)
+{
+    return track->blind_percent <= BLIND_PERCENT_MAX && is_pd_learned(look);
+}
+
+void rho_pd_count_place(const struct rho_look *look, struct rho_track *track, float visible,
                         float ratio)
 {
-    if (track->blind_percent > BLIND_PERCENT_MAX || !is_pd_learned(look)) {
-        return;
+    if (teaches_place(look, track)) {
+        const struct place at = place_of(look, track);
+        const float hit =
+            rho_larger(1.0f - (1.0f - track->seen_share * pd_at(look, at)) / ratio, 0.0f);
+        rho_pd_count(look->row, visible, hit);
+        count_at_both(look, at, visible, visible * hit);
+        track->unseen = (1.0f - hit) * (track->unseen + visible);
     }
-    const struct place at = place_of(look, track);
-    const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd_at(look, at)) / ratio, 0.0f);
-    const float at_ring = visible * (1.0f + at.octant->excess);
-    const float at_octant = visible * (1.0f + at.ring->excess);
-    rho_pd_count(look->row, visible, hit);
-    const float pd = look->row->looks > 0.0f ? look->row->hits / look->row->looks : 0.0f;
-    count_at(at.ring, at_ring, visible * hit, pd);
-    count_at(at.octant, at_octant, visible * hit, pd);
+}
+
+void rho_pd_take_back(const struct rho_look *look, const struct rho_track *track)
+{
+    if (teaches_place(look, track)) {
+        count_at_both(look, place_of(look, track), -track->unseen, 0.0f);
+    }
 }
 
 void rho_pd_forget(struct rho_tracker_sensor *row)

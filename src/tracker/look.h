@@ -77,6 +77,12 @@ struct rho_look {
     float range_rates_mps; /* interval of range rates in which clutter is uniform, m/s */
 };
 
+/* Its bearings fill their room: others, and those of targets among them, may have been left out. */
+static inline int rho_look_is_full(const struct rho_look *look)
+{
+    return look->bearings && look->bearings->num_bearings >= RHO_MAX_BEARINGS;
+}
+
 /* The record of the sensor's scans; NULL: none came in sequence, as of one that is always late. */
 static inline struct rho_tracker_look *rho_look_record(const struct rho_look *look)
 {

@@ -92,11 +92,24 @@
  * Looks that a stated P_D weighs beside those counted, and at which counts are halved. Half: the
  * first misses count for the sensor. Twice: a P_D that is told too high ends the first tracks.
  */
-#define STATED_LOOKS 4.0f
+#define STATED_LOOKS 1.0f
 #define COUNTED_LOOKS_MAX 2000.0f
-/* Hits beside a place's; excess that is none. Half: chance makes places. Twice: found late. */
-#define PLACE_HITS 20.0f
+/*
+ * Looks whose misses count beside a place's; excess that is none. Half: chance makes places. Twice:
+ * a sector that sees half ends tracks until it is found.
+ */
+#define PLACE_LOOKS 6.0f
 #define PLACE_SAME 0.1f
+/*
+ * Least P_D of a place over that of all. Half: objects that are seldom seen, as echoes of the
+ * second time around, pass for targets there. Twice: P_D is never lowered by place.
+ */
+#define PLACE_LEAST 0.5f
+/*
+ * P_D of a look whose bearings fill their room, over its usual one. Half: its hits are worth next to
+ * nothing. Twice: bearings that were left out count as misses, and end tracks.
+ */
+#define FULL_SHARE 0.5f
 /* Largest learned P_D. Half: hits are worth less. Twice: one miss ends a track. */
 #define PD_MOST 0.98f
 

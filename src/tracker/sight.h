@@ -18,8 +18,10 @@ void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row);
 /* Counts a look at a track, `visible` of which a hit is expected, as a hit by a probability. */
 void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit);
 /* The same of plots, by the track's place, too; ratio: G of track_life.c, which tells a hit. */
-void rho_pd_count_place(const struct rho_look *look, const struct rho_track *track, float visible,
+void rho_pd_count_place(const struct rho_look *look, struct rho_track *track, float visible,
                         float ratio);
+/* Takes a track's last misses back from its place: it ends, and its target was probably gone. */
+void rho_pd_take_back(const struct rho_look *look, const struct rho_track *track);
 /* Detection at a track's place, outside of the notch. */
 struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track);
 

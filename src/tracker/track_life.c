@@ -45,6 +45,7 @@ void rho_life_end(const struct step *step, struct rho_track *track)
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track->track_id;
     }
+    rho_pd_take_back(&step->look, track);
     rho_track_free_hypotheses(track, &step->look.model);
     rho_track_apply_event(track, RHO_TRACK_DROP);
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
@@ -92,6 +93,7 @@ void rho_life_begin(struct rho_track *track, int64_t time_us, int32_t confirm_mn
     track->look_nat = 0.0f;
     track->seen_nat = (float)track->hits * HIT_NAT;
     track->missed = 0.0f;
+    track->unseen = 0.0f;
     track->seen_share = 1.0f;
 }
 
@@ -216,8 +218,9 @@ static void count_seen_or_missed(struct rho_tracker *tracker, const struct rho_l
         track->seen_nat += often_nat(ratio);
         tracker->returned += rho_life_is_established(track) ? track->appeared : 0.0f;
     } else {
-        /* in misses of a visible target where the sensor has its usual P_D */
-        track->missed += seeing * often_nat(ratio) / often_nat(1.0f - look->pd);
+        /* in misses where the sensor has its usual P_D; the square: about as the logarithms */
+        const float share = (1.0f - ratio) / look->pd;
+        track->missed += seeing * share * share;
     }
 }
 
@@ -294,5 +297,6 @@ int rho_life_is_sound(const struct rho_track *track)
            rho_is_within(track->seen_share, 1e-30f, 1.0f) &&
            rho_is_within(track->look_nat, -1e9f, 1e9f) &&
            rho_is_within(track->seen_nat, 0.0f, 1e9f) && rho_is_within(track->missed, 0.0f, 1e9f) &&
+           rho_is_within(track->unseen, 0.0f, 1e9f) &&
            rho_is_stored_time(track->lived_us);
 }

@@ -76,6 +76,7 @@ static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
     const struct rho_tracker_pace *pace = &row->pace;
     return (!is_described || rho_sensors_is_usable(&row->sensor)) && rho_pd_is_sound(row) &&
            rho_learning_is_sound(&row->learned) && rho_is_within(row->blind, 0.0f, 1.0f) &&
+           rho_is_within(row->unclaimed_bearings, 0.0f, 1e9f) &&
            rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
            rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
            rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&
@@ -107,7 +108,6 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_tracker_is_score_in_range(tracker->confirm_mnat) &&
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
            rho_is_within(tracker->clutter_per_m2, 0.0f, 1e30f) &&
-           rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
            rho_is_within(tracker->lived, 0.0f, 1e9f) && rho_is_within(tracker->gone, 0.0f, 1e9f) &&
            rho_is_within(tracker->returned, 0.0f, 1e9f) &&
            rho_is_within(tracker->seldom, 0.0f, 1e9f) &&

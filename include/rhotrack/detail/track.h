@@ -82,7 +82,7 @@ struct rho_track {
     float missed;       /* number of misses, hidden targets' less, that speak against it */
     float seen_share;   /* of targets like it the next look can see: not hidden, not blind */
     float appeared;     /* within a step: share of `visible` that was hidden before */
-    uint8_t is_seldom;  /* it was found to be seldom seen, and counted so */
+    float unseen;       /* looks at it since its last hit that were counted for P_D of its place */
     int64_t time_us;    /* time of the estimate: of a scan, or of the last claimed plot */
     int64_t updated_us; /* time of the last claimed plot */
     int64_t seen_us;    /* time of the last step in which it claimed a plot or bearing */
@@ -119,6 +119,7 @@ struct rho_track {
      */
     float returns[RHO_ECHO_HIT_CLASSES];
     unsigned has_taken_back : 1; /* the returns were subtracted from the map */
+    unsigned is_seldom : 1;      /* it was found to be seldom seen, and counted so */
     unsigned has_moved : 1;      /* the track has surely left its start place */
     /* an operator started it: of a target, though it never moved; echoes there are no clutter */
     unsigned is_operators : 1;
