@@ -259,6 +259,12 @@ struct rho_tracker_learned {
     float log_cell[2], cell_weight[2];
 };
 
+/* Pairs of a passive sensor's bearing and a plot of its track before it (bearing_errors.c). */
+struct rho_bearing_errors {
+    float pairs;          /* number; halved with the sums at 1000 */
+    float weight, excess; /* sums of weights, and of weights times squares beyond the stated noise */
+};
+
 /* Scan interval of a sensor, measured in one direction. */
 struct rho_tracker_pace {
     int32_t is_heard;  /* the sensor has sent a scan */
@@ -291,6 +297,7 @@ struct rho_tracker_sensor {
     struct rho_tracker_look look; /* count 0: it has sent no scan of plots */
     struct rho_second_plots second_plots;
     float unclaimed_bearings; /* mean per scan */
+    struct rho_bearing_errors bearing_errors;
     float looks, hits; /* looks at confirmed tracks, and their probable hits */
     struct rho_pd_place places[RHO_PD_PLACES];
 };

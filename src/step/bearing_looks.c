@@ -69,6 +69,7 @@ open_look(struct rho_tracker *tracker, const struct rho_passive *passive, struct
     look->num_gated = num_bearings_with_fates(look, scan, first);
     look->fates += first < RHO_MAX_PLOTS ? first : 0;
     rho_pd_open(look, row);
+    rho_bearing_errors_open(look, row);
     return row;
 }
 
@@ -86,13 +87,20 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
     }
 }
 
+static struct rho_bearing gated_bearing(const struct rho_look *look, uint32_t i)
+{
+    struct rho_bearing bearing = look->bearings->bearings[i];
+    bearing.sigma_rad = rho_sqrt(bearing.sigma_rad * bearing.sigma_rad + look->lasting_rad2);
+    return bearing;
+}
+
 /* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
 static int score_bearing(const struct rho_look *look, const struct rho_gate *gate,
                          const struct rho_track *track, float log_pd, uint32_t i,
                          struct rho_gate_result *at, float *gain_nat)
 {
     const struct rho_bearing_scan *scan = look->bearings;
-    struct rho_bearing bearing = scan->bearings[i];
+    struct rho_bearing bearing = gated_bearing(look, i);
     /* the update by an earlier look of the frame may have moved the track from the frame's time */
     bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
     if (look->fates[i] != RHO_FATE_HELD ||
@@ -192,7 +200,8 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         hit += weight;
         mean += weight * off_rad;
         square += weight * off_rad * off_rad;
-        noise += weight * bearing->sigma_rad * bearing->sigma_rad;
+        noise += weight * (bearing->sigma_rad * bearing->sigma_rad +
+                           look->lasting_looks * look->lasting_rad2);
         total += weight * rho_exp(at.log_det);
         if (weight > best) {
             best = weight;
@@ -247,7 +256,11 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
         const struct bearing_mix mix = mix_bearings(tracker, look, row);
         const int32_t gain_mnat = rho_score_to_mnat(mix.gain_nat);
         unclaimed -= mix.hit;
-        if (!(mix.share > MIX_SHARE_MIN)) {
+        if (mix.as_one.row >= 0 && own) {
+            rho_bearing_errors_compare(look, &own->bearing_errors, track,
+                                       &look->bearings->bearings[mix.as_one.row]);
+        }
+        if (!(mix.share > MIX_SHARE_MIN) || (track->plot_sigma_m > 0.0f && !look->is_compared)) {
             rho_track_add_score(track, gain_mnat);
         } else if (rho_track_update_bearing(track, &mix.as_one, &look->model, gain_mnat) !=
                    RHO_OK) {

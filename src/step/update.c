@@ -146,5 +146,8 @@ void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct 
                 counters->updates_refused = rho_count(counters->updates_refused, 1);
             }
         }
+        if (track->plot >= 0) {
+            rho_track_keep_plot(track, &look->scan->plots[track->plot]);
+        }
     }
 }

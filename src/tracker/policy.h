@@ -86,6 +86,27 @@
  */
 #define BLIND_PERCENT_MAX 2
 
+/* bearing_errors.c */
+
+/*
+ * Standard errors at which lasting errors are sure. Half: chance takes good bearings away. Twice:
+ * tracks are pulled for a minute until they are found.
+ */
+#define LASTING_SIGMAS 2.0f
+/*
+ * Time that an error lasts, and most looks in it. Half: a ship that turns once a minute pulls
+ * tracks. Twice: errors that last for some seconds take the bearings away.
+ */
+#define LASTING_S 20.0f
+#define LASTING_LOOKS_MAX 1000.0f
+/*
+ * Pairs before which tracks with plots take no bearings of a sensor. Half: wrong bearings start
+ * manoeuvres that are none. Twice: good ones are not used for a quarter of a minute.
+ */
+#define PAIRS_MIN 10.0f
+/* Square, in sigmas, at which a pair is cut. Half: v is too small. Twice: a false bearing is v. */
+#define PAIR_CHI2 16.0f
+
 /* counted_pd.c */
 
 /*

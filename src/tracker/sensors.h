@@ -40,6 +40,13 @@ void rho_learning_apply_notch(const struct rho_look *look);
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look);
 int rho_learning_is_sound(const struct rho_tracker_learned *learned);
 
+/* bearing_errors.c: sets what is known of a look's bearings; row: NULL, nothing. */
+void rho_bearing_errors_open(struct rho_look *look, const struct rho_tracker_sensor *row);
+/* Compares a bearing with the last plot of the track that will claim it, once a plot. */
+void rho_bearing_errors_compare(const struct rho_look *look, struct rho_bearing_errors *errors,
+                                struct rho_track *track, const struct rho_bearing *bearing);
+int rho_bearing_errors_are_sound(const struct rho_bearing_errors *errors);
+
 /* Sensors are learned with hypotheses alone: else manoeuvres count as noise. */
 static inline int rho_learning_is_on(const struct rho_tracker_config *config)
 {

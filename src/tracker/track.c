@@ -285,6 +285,14 @@ static void init_track(struct rho_track *track, uint32_t track_id, int32_t score
     track->score_max_mnat = score_mnat;
 }
 
+void rho_track_keep_plot(struct rho_track *track, const struct rho_plot *plot)
+{
+    track->plot_m[0] = plot->x_m;
+    track->plot_m[1] = plot->y_m;
+    track->plot_sigma_m = rho_plot_sigma_m(plot);
+    track->has_new_plot = 1;
+}
+
 enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
                                 const struct rho_track_plot *plots, unsigned num_plots,
                                 const struct rho_track_model *model, int32_t score_mnat)
@@ -300,6 +308,7 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     start.sensor_id = last->sensor_id;
     start.time_us = plots[0].time_us;
     start.updated_us = last->time_us;
+    rho_track_keep_plot(&start, &last->plot);
     rho_kalman_init(&start.kalman);
     enum rho_status status = update_state_by_plot(&start.kalman, &plots[0], model);
     if (status == RHO_OK) {

@@ -50,7 +50,8 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
            rho_are_finite(track->kalman.state, RHO_KALMAN_STATES) &&
            rho_are_finite(track->kalman.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
            rho_are_finite(track->accel_mps2, 3) && rho_are_finite(track->newest_mps, 3) &&
-           rho_are_finite(track->before_mps, 3) &&
+           rho_are_finite(track->before_mps, 3) && rho_are_finite(track->plot_m, 2) &&
+           rho_is_within(track->plot_sigma_m, 0.0f, 1e30f) &&
            rho_is_within(track->maneuver_probability, 0.0f, 1.0f);
 }
 
@@ -77,6 +78,7 @@ static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
     return (!is_described || rho_sensors_is_usable(&row->sensor)) && rho_pd_is_sound(row) &&
            rho_learning_is_sound(&row->learned) && rho_is_within(row->blind, 0.0f, 1.0f) &&
            rho_is_within(row->unclaimed_bearings, 0.0f, 1e9f) &&
+           rho_bearing_errors_are_sound(&row->bearing_errors) &&
            rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
            rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
            rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&

@@ -120,6 +120,7 @@ struct rho_track {
     float returns[RHO_ECHO_HIT_CLASSES];
     unsigned has_taken_back : 1; /* the returns were subtracted from the map */
     unsigned is_seldom : 1;      /* it was found to be seldom seen, and counted so */
+    unsigned has_new_plot : 1;   /* no bearing has come since its last plot */
     unsigned has_moved : 1;      /* the track has surely left its start place */
     /* an operator started it: of a target, though it never moved; echoes there are no clutter */
     unsigned is_operators : 1;
@@ -127,6 +128,7 @@ struct rho_track {
     uint8_t blind_percent;
     uint8_t is_frozen; /* an operator has frozen the track: it coasts, and does not end */
     float start_m[2], start_sigma_m;
+    float plot_m[2], plot_sigma_m; /* last claimed plot; sigma 0: none yet */
     /* scans with a plot of the track, and second plots near these; both are halved now and then */
     float second_looks, second_plots;
     /* older track that this one started beside, 0: none; ln of the odds that both are one target */
@@ -266,6 +268,9 @@ RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
                                                         const struct rho_track_bearing *bearing,
                                                         const struct rho_track_model *model,
                                                         int32_t gain_mnat);
+
+/* Keeps a claimed plot's place, for bearings to be compared with it. Constant cost. */
+void rho_track_keep_plot(struct rho_track *track, const struct rho_plot *plot);
 
 /* Adds evidence of either sign to the score, without counting a hit or miss. Constant cost. */
 void rho_track_add_score(struct rho_track *track, int32_t gain_mnat);
