@@ -182,6 +182,7 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
     float sum = rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)
                     ? rho_exp(seen.log_miss)
                     : 1.0f;
+    const float lasting_rad2 = look->lasting_looks * look->lasting_rad2;
     float hit = 0.0f, mean = 0.0f, square = 0.0f, noise = 0.0f, total = 0.0f, best = 0.0f;
     struct rho_gate gate;
     rho_score_open_gate(look, track, 0, &gate);
@@ -192,16 +193,15 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         if (!score_bearing(look, &gate, track, seen.log_pd, i, &at, &gain_nat)) {
             continue;
         }
-        const float weight = free_share(tracker, row, i) *
-                             rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
+        const float weight =
+            free_share(tracker, row, i) * rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
         const int64_t time_us = scan->time_us + bearing->offset_us;
         const float off_rad =
             rho_angle_wrap(bearing->bearing_rad - expected_bearing_rad(scan, track, time_us));
         hit += weight;
         mean += weight * off_rad;
         square += weight * off_rad * off_rad;
-        noise += weight * (bearing->sigma_rad * bearing->sigma_rad +
-                           look->lasting_looks * look->lasting_rad2);
+        noise += weight * (bearing->sigma_rad * bearing->sigma_rad + lasting_rad2);
         total += weight * rho_exp(at.log_det);
         if (weight > best) {
             best = weight;
@@ -260,7 +260,7 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
             rho_bearing_errors_compare(look, &own->bearing_errors, track,
                                        &look->bearings->bearings[mix.as_one.row]);
         }
-        if (!(mix.share > MIX_SHARE_MIN) || (track->plot_sigma_m > 0.0f && !look->is_compared)) {
+        if (!(mix.share > MIX_SHARE_MIN)) {
             rho_track_add_score(track, gain_mnat);
         } else if (rho_track_update_bearing(track, &mix.as_one, &look->model, gain_mnat) !=
                    RHO_OK) {

@@ -12,8 +12,7 @@
  *
  * where that is more than two of its standard errors, sqrt(2 / sum of weights); else 0. Bearings
  * are gated by their noise and v. In estimates v counts as often as the sensor looks in 20 s, so
- * that all its bearings of that time count as one. Tracks with plots take no bearings of a sensor
- * before ten pairs.
+ * that all its bearings of that time count as one.
  */
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
@@ -30,7 +29,6 @@ void rho_bearing_errors_open(struct rho_look *look, const struct rho_tracker_sen
     const struct rho_bearing_errors *errors = row ? &row->bearing_errors : 0;
     look->lasting_rad2 = 0.0f;
     look->lasting_looks = 1.0f;
-    look->is_compared = (uint8_t)(!errors || errors->pairs >= PAIRS_MIN || !is_on(look));
     if (errors && is_on(look) &&
         errors->excess > LASTING_SIGMAS * rho_sqrt(2.0f * errors->weight)) {
         look->lasting_rad2 = errors->excess / errors->weight;

@@ -72,7 +72,6 @@ struct rho_look {
     float log_false_bearings;                /* ln of the density of false bearings a radian */
     /* variance of its bearings' lasting errors, and looks that share one; 0: none is known */
     float lasting_rad2, lasting_looks;
-    uint8_t is_compared; /* its bearings were compared with plots, and may change tracks of plots */
     struct rho_notch_look notch_look; /* what a sensor with a Doppler notch sees; 0: no notch */
     /* ln of the intervals in which clutter is uniform: height, m; velocity on one axis, m/s */
     float log_height, log_rates;

@@ -99,11 +99,6 @@
  */
 #define LASTING_S 20.0f
 #define LASTING_LOOKS_MAX 1000.0f
-/*
- * Pairs before which tracks with plots take no bearings of a sensor. Half: wrong bearings start
- * manoeuvres that are none. Twice: good ones are not used for a quarter of a minute.
- */
-#define PAIRS_MIN 10.0f
 /* Square, in sigmas, at which a pair is cut. Half: v is too small. Twice: a false bearing is v. */
 #define PAIR_CHI2 16.0f
 

@@ -71,8 +71,7 @@ void rho_evidence_update(struct step *step)
     const float wanted =
         tracker->wanted_per_hour * rho_larger(sensors, 1.0f) * (MEMORY_S / 3600.0f);
     const float excess = tracker->seldom - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->seldom);
-    const float odds =
-        TRUE_PER_FALSE * excess / (tracker->established + ESTABLISHED_PRIOR);
+    const float odds = TRUE_PER_FALSE * excess / (tracker->established + ESTABLISHED_PRIOR);
     /* wanted_per_hour is 0 where score_min_nat sets the threshold: no evidence is needed then */
     step->needed_nat =
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;

@@ -297,6 +297,5 @@ int rho_life_is_sound(const struct rho_track *track)
            rho_is_within(track->seen_share, 1e-30f, 1.0f) &&
            rho_is_within(track->look_nat, -1e9f, 1e9f) &&
            rho_is_within(track->seen_nat, 0.0f, 1e9f) && rho_is_within(track->missed, 0.0f, 1e9f) &&
-           rho_is_within(track->unseen, 0.0f, 1e9f) &&
-           rho_is_stored_time(track->lived_us);
+           rho_is_within(track->unseen, 0.0f, 1e9f) && rho_is_stored_time(track->lived_us);
 }

@@ -23,6 +23,8 @@ TURN_S, TURNS = 1.68, 120
 ALONE = "radar alone"
 RATES_HZ, SIGMAS_RAD = (5, 0.5), (0.01, 0.06)
 DETECTED, FALSE = (0.95, 0.7, 0.3, 0.1), (0, 2, 15)
+SWAYS_S = (0, 60, 20)  # 0: a bias
+SWAY_RAD, SWAYING_RAD = 0.04, (0.003, 0.01)
 # Bars of a camera: completeness and switches less the radar's, rms over the radar's
 LESS_COMPLETE, MORE_SWITCHES, RMS_RATIO = -0.005, 0.5, 1.03
 
@@ -45,6 +47,13 @@ def with_camera(rate_hz, sigma_rad, pd, false_bearings, is_told):
     return {**SCENE, "passive": [camera if is_told else {**camera, "told": {"pd": 0.9}}]}
 
 
+def with_swaying_camera(rate_hz, sigma_rad, sway_s):
+    scene = with_camera(rate_hz, sigma_rad, 0.9, 2, True)
+    error = ({"sway_rad": SWAY_RAD, "sway_s": sway_s} if sway_s else {"azimuth_bias_rad": SWAY_RAD,
+                                                                      "told": {"azimuth_bias_rad": 0}})
+    return {**scene, "passive": [{**scene["passive"][0], **error}]}
+
+
 def name_of(kind, pd, false_bearings):
     return f"{kind}, P_D {pd:g}, {false_bearings} false"
 
@@ -63,6 +72,12 @@ def cameras(options):
         }
         for rate_hz, sigma_rad, is_told in itertools.product(
             options.rate or RATES_HZ, options.sigma or SIGMAS_RAD, (True, False))
+    } | {
+        f"{rate_hz:g} Hz, lasting errors": {
+            f"{rate_hz:g} Hz, lasting errors, {sigma:g} rad, " +
+            (f"period {sway_s} s" if sway_s else "a bias"): with_swaying_camera(rate_hz, sigma, sway_s)
+            for sigma, sway_s in itertools.product(SWAYING_RAD, SWAYS_S)
+        } for rate_hz in options.rate or RATES_HZ
     }
 
 

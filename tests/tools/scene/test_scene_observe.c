@@ -411,6 +411,30 @@ static void false_bearings_may_come_in_bursts(void **state)
     free_observation(run, scene);
 }
 
+static void a_camera_may_sway(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = observe_scene_text(
+        "{\"version\": 1, \"duration_s\": 1200, \"passive\": [{\"interval_s\": 1, \"sigma_rad\": "
+        "0.001, \"pd\": 0.999, \"sway_rad\": 0.02, \"sway_s\": 40}], \"targets\": [{\"at_m\": "
+        "[100, "
+        "0], \"velocity_mps\": [0.001, 0]}]}",
+        &scene, 1);
+    double sine = 0, square = 0;
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            const double rad = run->scans[i].plots[k].azimuth_rad;
+            sine += rad * sin(2 * 3.14159265 * run->scans[i].plots[k].t_s / 40);
+            square += rad * rad;
+        }
+    }
+    assert_near(sine / (double)run->num_scans, 0.01, 0.0002);
+    assert_near(square / (double)run->num_scans, 0.0002 + 1e-6, 1e-5);
+    free_observation(run, scene);
+}
+
 static void scans_come_in_the_order_of_their_reception(void **state)
 {
     (void)state;
@@ -450,6 +474,7 @@ int main(void)
         cmocka_unit_test(unresolved_targets_give_one_plot),
         cmocka_unit_test(passive_sensors_measure_bearings),
         cmocka_unit_test(false_bearings_may_come_in_bursts),
+        cmocka_unit_test(a_camera_may_sway),
         cmocka_unit_test(scans_come_in_the_order_of_their_reception),
     };
 

@@ -78,6 +78,8 @@ struct scene_sensor {
     double range_bias_m, azimuth_bias_rad, time_bias_s;
     /* share of scans that arrive late, and their delay */
     double late_share, late_s;
+    /* of a passive sensor: a sine of this amplitude and period in each target's bearings */
+    double sway_rad, sway_s;
     double false_bearings;               /* of a passive sensor: mean number a scan */
     bool is_geometric;                   /* their distribution; false: Poisson */
     double false_from_rad, false_to_rad; /* sector in which false bearings lie */

@@ -14,6 +14,7 @@
  * error by the ratio of the angular speeds, 1e-2 at worst in practice
  */
 #define SIGHTING_ITERATIONS 16
+#define SWAY_PHASE 0.618    /* turns of phase between the sways of two targets */
 #define NEXT_PASS_TURNS 0.5 /* turns after a sighting before the same object can be seen again */
 
 static double antenna_turn_sign(const struct scene_sensor *sensor)
@@ -198,6 +199,17 @@ static double range_rate_of(const struct scene_sensor *sensor, const struct moti
            fmax(RANGE_LEAST_M, range_m);
 }
 
+/* Lasting error of a target's bearings, of each target in another phase. */
+static double sway_of_sighting(const struct scene_sensor *sensor, const struct sighting *sighting)
+{
+    if (!(sensor->sway_rad > 0.0)) {
+        return 0.0;
+    }
+    return sensor->sway_rad *
+           portable_sin(PORTABLE_TURN * (sighting->t_s / sensor->sway_s +
+                                         SWAY_PHASE * (double)sighting->target_id));
+}
+
 /*
  * Makes a plot of a sighting with biases and random noise. Three random numbers are drawn whichever
  * of range, azimuth, range rate and position the sensor measures.
@@ -214,7 +226,8 @@ static struct scene_plot noisy_plot_of_sighting(const struct scene_sensor *senso
         .t_s = sighting->t_s,
         .target_id = sighting->target_id,
         .range_m = sighting->range_m + sensor->range_bias_m + sensor->sigma_range_m * first,
-        .azimuth_rad = sighting->azimuth_rad + sensor->azimuth_bias_rad + sigma_rad * second,
+        .azimuth_rad = sighting->azimuth_rad + sensor->azimuth_bias_rad +
+                       sway_of_sighting(sensor, sighting) + sigma_rad * second,
         .range_rate_mps = range_rate_of(sensor, &sighting->at, sighting->range_m) +
                           sensor->sigma_range_rate_mps * third,
         .x_m = sighting->at.x_m + sensor->sigma_m * first,

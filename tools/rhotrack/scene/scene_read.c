@@ -206,6 +206,8 @@ static void read_passive_sensor(struct json_object *object, struct scene_sensor 
     sensor->sigma_rad = json_read_number(object, "sigma_rad", 1e-6, 0.5, 0);
     sensor->azimuth_bias_rad = json_read_number(object, "azimuth_bias_rad", -0.5, 0.5, 0);
     sensor->time_bias_s = json_read_number(object, "time_bias_s", -10, 10, 0);
+    sensor->sway_rad = json_read_number(object, "sway_rad", 0, 0.5, 0);
+    sensor->sway_s = json_read_number(object, "sway_s", 0.1, 86400, 60);
     sensor->false_bearings = json_read_number(object, "false_bearings", 0, 250, 0);
     sensor->is_geometric = json_read_flag(object, "is_geometric", false);
     json_read_numbers(object, "false_sector_rad", 2, -PORTABLE_TURN, PORTABLE_TURN, sector_rad);
