@@ -95,6 +95,40 @@ static void step_frame_without_targets(unsigned k)
  * The sensors of a frame look one after the other: each miss leaves less of the visible targets,
  * and takes less from the score.
  */
+/*
+ * A scan whose bearings fill their room may have lost those of targets: it counts as one that sees
+ * half as much, and teaches no P_D.
+ */
+static void full_scans_are_half_a_miss(void **state)
+{
+    static struct rho_bearing bearings[RHO_MAX_BEARINGS];
+    double lost_nat[2];
+    (void)state;
+    for (int is_full = 0; is_full < 2; is_full++) {
+        track_random_target_for_twelve_frames(3);
+        const double score_nat = (double)report.tracks[0].score_nat;
+        const struct rho_tracker_sensor *row = &tracker.sensors[0];
+        const float looks = row->looks;
+        see_frame(12, 120.0);
+        const double y_m = target_y_m(&scene.target[0], 120.0) - scene.sensor_y_m[0];
+        const double x_m = target_x_m(&scene.target[0], 120.0) - scene.sensor_x_m[0];
+        for (int k = 0; k < RHO_MAX_BEARINGS; k++) { /* on the other side of the sensor */
+            bearings[k] = (struct rho_bearing){.bearing_rad = (float)atan2(-y_m, -x_m) * 0.99f,
+                                               .sigma_rad = 0.004f};
+        }
+        full.frame.num_scans = 1;
+        full.scans[0].num_bearings = is_full ? RHO_MAX_BEARINGS : RHO_MAX_BEARINGS - 1;
+        full.scans[0].bearings = bearings;
+        const double pd = (row->hits + 0.9f) / (looks + (is_full ? 1.0f : 2.0f));
+        step_frame(&full.frame);
+        assert_float_equal(row->looks - looks, is_full ? 0.0f : 1.0f, 0.02f);
+        lost_nat[is_full] = score_nat - (double)report.tracks[0].score_nat;
+        assert_float_equal(lost_nat[is_full], -log(1.0 - fmin(pd, 0.98) * (is_full ? 0.5 : 1.0)),
+                           0.05);
+    }
+    assert_true(lost_nat[0] > 2.0 * lost_nat[1]);
+}
+
 static void frames_without_its_bearings_end_a_track(void **state)
 {
     (void)state;
@@ -390,7 +424,7 @@ static void mixed_bearings_update_as_pda_does(void **state)
         static struct rho_bearing bearings[2];
         track_random_target_for_twelve_frames(3);
         tracker.config.learn_pd_min = 1.0f;
-        tracker.unclaimed_bearings = 500.0f; /* over the field of view */
+        tracker.sensors[0].unclaimed_bearings = 500.0f; /* over the field of view */
         struct ekf ekf = ekf_from_track(&report.tracks[0]);
         const double score_nat = (double)report.tracks[0].score_nat;
         ekf_predict(&ekf, 10.0, 6.25);
@@ -560,6 +594,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(targets_that_cross_at_one_sensor_keep_their_identities),
+        cmocka_unit_test(full_scans_are_half_a_miss),
         cmocka_unit_test(frames_without_its_bearings_end_a_track),
         cmocka_unit_test(a_bearing_restarts_the_misses_in_a_row_of_a_track),
         cmocka_unit_test(a_miss_of_one_sensor_lowers_the_score_only),

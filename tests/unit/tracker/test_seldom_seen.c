@@ -110,7 +110,7 @@ static void where_objects_are_seldom_seen_more_hits_are_needed(void **state)
     assert_true(first >= 8);   /* two turns at least for each of the first four */
     assert_int_equal(last, 0); /* the last one was never confirmed */
     const int reported = count_turns_reporting_short_lived_target(-20000.0, -30000.0, 20);
-    assert_in_range(reported, 12, 21); /* a real target is confirmed, at three plots or later */
+    assert_in_range(reported, 12, 24); /* a real target is confirmed, at three plots or later */
     for (int n = 0; n < 6; n++) {
         (void)count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 20);
     }
@@ -124,7 +124,7 @@ static void short_lived_tracks_are_forgotten_after_a_while(void **state)
     for (int n = 0; n < 12; n++) {
         (void)count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 4);
     }
-    assert_true(tracker.seldom > 6.0f);
+    assert_true(tracker.seldom > 5.0f);
     for (int k = 0; k < 1200; k++) {
         step_turn();
     }
@@ -169,7 +169,7 @@ static void the_evidence_needed_equals_its_formula(void **state)
     begin_tracker();
     make_track(0, 100, 20);
     make_track(1, 16, 5); /* established */
-    make_track(2, 15, 5); /* not yet established, but almost, by its evidence */
+    make_track(2, 15, 5); /* not yet established */
     make_track(3, 7, 3);
     tracker.wanted_per_hour = 3.0f;
     tracker.seldom = 20.0f;
@@ -183,13 +183,8 @@ static void the_evidence_needed_equals_its_formula(void **state)
     expect_close((double)tracker.seldom, ended);
     expect_close((double)tracker.established, established);
     expect_close((double)at.miss_nat, log((1.0 - 0.3 * pd) / (1.0 - pd)));
-    const double miss_nat = (double)at.miss_nat;
-    /* almost: the evidence of twice three hits */
-    assert_true(15.0 * hit_nat - 5.0 * miss_nat > 6.0 * hit_nat);
-    assert_true(7.0 * hit_nat - 3.0 * miss_nat < 6.0 * hit_nat);
     const double excess = ended - wanted - 0.5 * sqrt(ended);
-    expect_close((double)at.needed_nat,
-                 3.0 * hit_nat + log(10.0 * excess / (established + 1.0 + 2.0)));
+    expect_close((double)at.needed_nat, 3.0 * hit_nat + log(10.0 * excess / (established + 2.0)));
     /* one hit more or less than the evidence needed */
     const double needed = (double)at.needed_nat;
     const uint16_t hits = (uint16_t)ceil(needed / hit_nat);
