@@ -84,8 +84,7 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
 
 static float pd_at(const struct rho_look *look, struct place at)
 {
-    const float ratio =
-        rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
+    const float ratio = (1.0f + at.ring->excess) * (1.0f + at.octant->excess);
     return ratio < 1.0f || ratio > 1.0f ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
                                         : look->pd;
 }

@@ -33,7 +33,7 @@ takes() { # filters, gates it has as a pattern
 refuses() { # filters
     ! ${CC:-gcc} -std=c11 -I"$root/include" -DRHO_FILTERS="$1" -fsyntax-only \
         "$root/src/tracker/tracker_setup.c" 2>said &&
-        grep -q 'RHO_FILTERS must be 1 .. 7' said
+        grep -q 'RHO_FILTERS_must_be_1_to_7' said
 }
 
 lines 7 >all

@@ -37,7 +37,7 @@ check 'plots and polar plots' same_as_all 3 'kind [01]|one axis bytes'
 check 'bearings alone' same_as_all 4 'kind 2'
 check 'plots and bearings' same_as_all 5 'kind [02]|one axis bytes'
 check 'polar plots and bearings' same_as_all 6 'kind [12]'
-check 'kinds that do not exist' grep -q 'RHO_SCAN_KINDS must be 1 .. 7' \
+check 'kinds that do not exist' grep -q 'RHO_SCAN_KINDS_must_be_1_to_7' \
     <(${CC:-gcc} -std=c11 -I"$root/include" -DRHO_SCAN_KINDS=8 -fsyntax-only \
     "$root/src/wire/scan_assembler.c" 2>&1)
 finish

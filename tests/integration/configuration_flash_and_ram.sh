@@ -93,7 +93,7 @@ check 'macros in a comment are none, whatever letters it has' refused \
     RHO_CONFIG_FILE="$folder/own.h" CC=gcc
 config '#define RHO_SHARES_PLOTS 2'
 check 'an option that is neither' refused \
-    "$folder/own.h:1: RHO_SHARES_PLOTS is 2: RHO_SHARES_PLOTS must be 0 or 1" \
+    "$folder/own.h:1: RHO_SHARES_PLOTS is 2: RHO_SHARES_PLOTS must be 0 .. 1" \
     RHO_CONFIG_FILE="$folder/own.h" CC=gcc
 check 'a macro out of range on the command line' refused \
     'flags: RHO_MAX_SCANS must be 3 .. 12' CFLAGS=-DRHO_MAX_SCANS=2 CC=gcc

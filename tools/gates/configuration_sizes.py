@@ -134,14 +134,17 @@ def check_macro_names(config, said):
 
 
 def check_macro_ranges(compiler, flags, config, said):
-    """Preprocesses config.h, and returns all macros with their values; exits with an error, naming
-    the line of the file, where a macro is out of its range."""
-    done = compiler.run([*flags, "-Iinclude", "-E", "-dM", "-x", "c", "-"],
-                        input='#include "rhotrack/config.h"\n')
+    """Compiles config.h, and returns all macros with their values; exits with an error, naming the
+    line of the file, where a macro is out of its range."""
+    reading = [*flags, "-Iinclude", "-x", "c", "-"]
+    done = compiler.run(["-fsyntax-only", *reading], input='#include "rhotrack/config.h"\n')
     if done.returncode == 0:
-        return done.stdout
-    # the #error text appears in gcc's message and in the source line that it shows: keep one
-    wrong = dict.fromkeys(re.findall(r'#error "?((RHO_\w+) must be [^"\n]*)', done.stderr))
+        return compiler.run(["-E", "-dM", *reading], input='#include "rhotrack/config.h"\n').stdout
+    # the text appears in gcc's message and in the source line that it shows: keep one
+    wrong = dict.fromkeys(
+        re.findall(r'#error "?((RHO_\w+) must be [^"\n]*)', done.stderr) +
+        [(f"{name} must be {least} .. {most}", name) for name, least, most in re.findall(
+            r"(RHO_\w+)_must_be_(\d+)_to_(\d+)", done.stderr)])
     places = {name: f"{said}:{number}: {name} is {value}"
               for number, name, value in (macro_definitions(config) if config else ())}
     for text, name in wrong:
