@@ -33,9 +33,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_tracker;
 
@@ -113,8 +111,6 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_body_max(struct rho_tracker *trac
  */
 int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struct rho_body *body);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

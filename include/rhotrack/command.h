@@ -24,9 +24,7 @@
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /*
  * Runs a command, and fills the answer but for scan and epoch, which are 0.
@@ -58,8 +56,6 @@ RHO_MUST_CHECK enum rho_status rho_command_set(const struct rho_message_setting 
  */
 const char *rho_command_setting_name(int field);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

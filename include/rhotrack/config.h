@@ -23,6 +23,15 @@
 #include RHO_CONFIG_FILE
 #endif
 
+/* Declarations between these two are C's in C++, too. */
+#ifdef __cplusplus
+#define RHO_BEGIN_C extern "C" {
+#define RHO_END_C }
+#else
+#define RHO_BEGIN_C
+#define RHO_END_C
+#endif
+
 #ifdef RHO_PROFILE_WORKSTATION
 #define RHO_CONFIG_PICK(embedded, workstation) (workstation)
 #else

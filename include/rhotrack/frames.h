@@ -45,9 +45,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_frames_config {
     int64_t tolerance_us; /* longest time from the first scan of a frame to its last: 0 .. 10 s */
@@ -162,8 +160,6 @@ RHO_MUST_CHECK enum rho_status rho_frames_close(struct rho_frames *frames);
  */
 int rho_frames_closed(const struct rho_frames *frames, struct rho_frame_view *view);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -39,9 +39,7 @@
 #include "rhotrack/detail/votes_picture.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Counts of votes are in units of 1/65536 vote: this is one vote. Sums saturate. */
 #define RHO_HOUGH_VOTE 65536u
@@ -282,8 +280,6 @@ void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough
 float rho_hough_theta_rad(const struct rho_hough *hough, unsigned theta_cell);
 float rho_hough_rho_m(const struct rho_hough *hough, unsigned rho_cell);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -33,9 +33,7 @@
 #include "rhotrack/detail/window.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_initiator_config {
     uint16_t scans; /* N, scans in the window: 3 .. RHO_MAX_SCANS */
@@ -263,8 +261,6 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
  */
 int rho_initiator_is_sound(const struct rho_initiator *initiator);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -89,9 +89,7 @@
 #include "rhotrack/types.h"
 #include "rhotrack/zones.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* 1 where the build has bearings; the search for tracks in them; the papers' search in them. */
 #define RHO_NODE_HAS_BEARINGS (((RHO_SCAN_KINDS)&4) != 0)
@@ -469,8 +467,6 @@ RHO_MUST_CHECK enum rho_status rho_node_load(struct rho_node *node, const void *
 RHO_MUST_CHECK enum rho_status rho_node_saved_settings(const void *image, size_t size,
                                                        struct rho_settings *settings);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

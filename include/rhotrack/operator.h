@@ -27,9 +27,7 @@
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Highest track identity that a person can give; later tracks get identities above it. */
 #define RHO_LIMIT_TRACK_ID (1u << 30)
@@ -102,8 +100,6 @@ RHO_MUST_CHECK enum rho_status rho_tracker_exclude_area(struct rho_tracker *trac
 RHO_MUST_CHECK enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m,
                                                          float y_m);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -32,9 +32,7 @@
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Largest number of a scan's lines that can start tracks: those with the most votes. */
 #define RHO_PAPER_PEAKS 32
@@ -115,8 +113,6 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_step(struct rho_passive_paper *
                                                       const struct rho_frame *frame,
                                                       struct rho_report *report);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

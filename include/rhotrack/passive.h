@@ -34,9 +34,7 @@
 #include "rhotrack/detail/recent_bearing_frames.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_passive_config {
     uint32_t scans; /* number of scans in the batch, N: 4 .. RHO_MAX_PASSIVE_SCANS */
@@ -205,8 +203,6 @@ unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track);
  */
 int rho_passive_is_sound(const struct rho_passive *passive);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -40,9 +40,7 @@
 #include "rhotrack/detail/votes_picture.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_passive_paper_config {
     uint16_t scans; /* number of scans in the batch, N: 4 .. RHO_MAX_PASSIVE_SCANS */
@@ -234,8 +232,6 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_cells(struct rho_passive_paper 
 float rho_passive_paper_rho_m(float range_m, float bearing_rad, float x_m, float y_m,
                               float theta_rad);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -50,9 +50,7 @@
 #include "rhotrack/types.h"
 #include "rhotrack/zones.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Results of a step. */
 
@@ -276,8 +274,6 @@ const char *rho_show_next(struct rho_show *show, const struct rho_show_source *s
 /* Number of a kind's messages that its rate has left out; 0 for an unknown kind. Constant cost. */
 uint32_t rho_show_not_sent(const struct rho_show *show, enum rho_show_kind kind);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

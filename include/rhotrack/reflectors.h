@@ -59,9 +59,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_report;
 struct rho_tracker;
@@ -156,8 +154,6 @@ int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, u
 /* True where an object of unknown origin (a snapshot) is sound. Constant cost. Stack: 112 bytes. */
 int rho_reflector_learning_is_sound(const struct rho_reflector_learning *learning);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -102,9 +102,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Largest number of scan numbers that a sensor may skip and still be accepted at once. */
 #define RHO_SCAN_ASSEMBLER_SKIP_MAX 64
@@ -366,8 +364,6 @@ int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us
  */
 int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

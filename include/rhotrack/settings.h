@@ -73,9 +73,7 @@
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_settings {
     /* targets */
@@ -244,8 +242,6 @@ void rho_settings_apply_sensor(const struct rho_settings *settings, struct rho_s
 /* Puts the four sigmas of the settings into a polar plot; its other fields stay. Constant cost. */
 void rho_settings_apply_noise(const struct rho_settings *settings, struct rho_polar_plot *plot);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

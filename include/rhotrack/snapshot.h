@@ -56,9 +56,7 @@
 
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /*
  * Version of the image's contents: goes up where fields of the objects change their meaning and not
@@ -180,8 +178,6 @@ RHO_MUST_CHECK enum rho_status rho_snapshot_list(const void *image, size_t size,
                                                  struct rho_snapshot_part *parts,
                                                  unsigned max_parts, unsigned *num_parts);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

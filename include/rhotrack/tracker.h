@@ -73,9 +73,7 @@
 #include "rhotrack/reflectors.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* How tracks choose among plots, and their filter; tracks of bearings have a Kalman filter. */
 enum rho_tracker_gate {
@@ -299,7 +297,7 @@ struct rho_tracker_sensor {
     struct rho_second_plots second_plots;
     float unclaimed_bearings; /* mean per scan */
     struct rho_bearing_errors bearing_errors;
-    float looks, hits; /* looks at confirmed tracks, and their probable hits */
+    float looks, hits; /* looks at tracks that probably exist, and their probable hits */
     struct rho_pd_place places[RHO_PD_PLACES];
 };
 
@@ -475,6 +473,7 @@ struct rho_tracker_known {
     float range_factor, cross_factor; /* factors on the stated sigmas of its plots */
     float pd[RHO_LEARN_RINGS];        /* by ring of range */
     uint32_t innovations, looks;      /* numbers from which factors and pd were learned */
+    float lasting_rad;                /* sigma of errors of its bearings that last; 0: none */
     /* notch, learned where none was stated (RHO_DOPPLER_NOTCH); 0: none */
     float notch_mps;
     /* resolution cell in sigmas, learned where none was stated (RHO_SHARES_PLOTS); 0: not yet */
@@ -626,8 +625,6 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracke
  */
 int rho_tracker_is_sound(const struct rho_tracker *tracker);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -72,9 +72,7 @@
 #define RHO_MUST_CHECK
 #endif
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* The outcome of every call that can fail. */
 enum rho_status {
@@ -310,8 +308,6 @@ int rho_is_stored_time(int64_t time_us);
 /* True where a coordinate is finite and within RHO_LIMIT_POSITION_M either way. */
 int rho_is_coordinate(float v_m);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

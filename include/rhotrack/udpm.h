@@ -41,9 +41,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_UDPM_GROUP "239.255.76.67"
 #define RHO_UDPM_PORT 7667
@@ -99,8 +97,6 @@ RHO_MUST_CHECK enum rho_status rho_udpm_parse(const uint8_t *data, size_t size,
 /* 1 for the datagram by which liblcm tests the network: channel LCM_SELF_TEST. Constant cost. */
 int rho_udpm_is_self_test(const struct rho_udpm_datagram *datagram);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

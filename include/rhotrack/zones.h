@@ -29,9 +29,7 @@
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_ZONE_CORNERS 8
 /* Places for zones: RHO_MAX_ZONES, and 1 in a build without them. */
@@ -129,8 +127,6 @@ RHO_MUST_CHECK enum rho_status rho_zones_step(struct rho_zones *zones,
 /* Name of a change: "enters", "leaves" or "ends"; "unknown" for any other value. */
 const char *rho_zone_change_name(enum rho_zone_change change);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

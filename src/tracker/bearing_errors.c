@@ -19,22 +19,22 @@
 #include "rhotrack/detail/approx.h"
 #include "sensors.h"
 
-static int is_on(const struct rho_look *look)
+float rho_bearing_errors_rad2(const struct rho_bearing_errors *errors)
 {
-    return look->tracker->config.learn_noise_max > 1.0f;
+    return errors->excess > LASTING_SIGMAS * rho_sqrt(2.0f * errors->weight)
+               ? errors->excess / errors->weight
+               : 0.0f;
 }
 
 void rho_bearing_errors_open(struct rho_look *look, const struct rho_tracker_sensor *row)
 {
-    const struct rho_bearing_errors *errors = row ? &row->bearing_errors : 0;
-    look->lasting_rad2 = 0.0f;
-    look->lasting_looks = 1.0f;
-    if (errors && is_on(look) &&
-        errors->excess > LASTING_SIGMAS * rho_sqrt(2.0f * errors->weight)) {
-        look->lasting_rad2 = errors->excess / errors->weight;
-        look->lasting_looks = rho_larger(
-            LASTING_S / rho_larger(row->pace.interval_s, LASTING_S / LASTING_LOOKS_MAX), 1.0f);
-    }
+    look->lasting_rad2 = row && look->tracker->config.learn_noise_max > 1.0f
+                             ? rho_bearing_errors_rad2(&row->bearing_errors)
+                             : 0.0f;
+    look->lasting_looks =
+        row && row->pace.interval_s < LASTING_S
+            ? LASTING_S / rho_larger(row->pace.interval_s, LASTING_S / LASTING_LOOKS_MAX)
+            : 1.0f;
 }
 
 void rho_bearing_errors_compare(const struct rho_look *look, struct rho_bearing_errors *errors,

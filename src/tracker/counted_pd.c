@@ -5,7 +5,8 @@
  * The stated P_D counts as a few looks beside them, so that a sensor that sees less than it states
  * takes it out on itself and not on the tracks. A place is a ring of range and an octant of
  * azimuth. Each has the hits there over those that P_D of all looks expects: P_D at a place is that
- * of all looks, times the ratios of its ring and its octant where they are not 1 by chance.
+ * of all looks, times the ratios of its ring and its octant where they are not 1 by chance. Misses
+ * before a track ends are taken back from its place: its target has probably left.
  */
 #include <string.h>
 

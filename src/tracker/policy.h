@@ -117,8 +117,8 @@
 #define PLACE_LOOKS 6.0f
 #define PLACE_SAME 0.1f
 /*
- * P_D of a look whose bearings fill their room, over its usual one. Half: its hits are worth next to
- * nothing. Twice: bearings that were left out count as misses, and end tracks.
+ * P_D of a look whose bearings fill their room, over its usual one. Half: its hits are worth next
+ * to nothing. Twice: bearings that were left out count as misses, and end tracks.
  */
 #define FULL_SHARE 0.5f
 /* Largest learned P_D. Half: hits are worth less. Twice: one miss ends a track. */

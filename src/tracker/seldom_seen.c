@@ -13,7 +13,7 @@
  * that of a probably hidden target or blind look counts less. Three sure hits are 3.6. Tracks whose
  * score reached the confirm threshold and whose e fell by a hit below 0 are counted as seldom seen,
  * tracks with 16 hits as established. Where D of the former and G of the latter came in the last
- * half an hour, or soon will (e is 7.2), a track is shown from
+ * half an hour, a track is shown from
  *
  *      e = 3.6 + ln(10 (D - W - sqrt(D) / 2) / (G + 2))
  *

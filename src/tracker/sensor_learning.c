@@ -238,6 +238,7 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         .cross_factor = usable_sigma_factor(tracker, learned, 1),
         .innovations = learned->innovations,
         .looks = (uint32_t)tracker->sensors[row].looks,
+        .lasting_rad = rho_sqrt(rho_bearing_errors_rad2(&tracker->sensors[row].bearing_errors)),
         .resolution_range_sigmas = RHO_SHARES_PLOTS ? rho_cell_learned_sigmas(learned, 0) : 0.0f,
         .resolution_cross_sigmas = RHO_SHARES_PLOTS ? rho_cell_learned_sigmas(learned, 1) : 0.0f,
     };

@@ -40,7 +40,9 @@ void rho_learning_apply_notch(const struct rho_look *look);
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look);
 int rho_learning_is_sound(const struct rho_tracker_learned *learned);
 
-/* bearing_errors.c: sets what is known of a look's bearings; row: NULL, nothing. */
+/* bearing_errors.c: variance of errors that last, 0: none are sure */
+float rho_bearing_errors_rad2(const struct rho_bearing_errors *errors);
+/* Sets what is known of a look's bearings; row: NULL, nothing. */
 void rho_bearing_errors_open(struct rho_look *look, const struct rho_tracker_sensor *row);
 /* Compares a bearing with the last plot of the track that will claim it, once a plot. */
 void rho_bearing_errors_compare(const struct rho_look *look, struct rho_bearing_errors *errors,

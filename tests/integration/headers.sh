@@ -92,7 +92,7 @@ check 'seen: C that C++ does not know' \
 check 'seen: rhotrack.h lacks a header' \
     sees rhotrack.h '/passive_paper/d' 'does not include rhotrack/passive_paper.h' includes_all
 check 'seen: a header without extern "C"' \
-    sees udpm.h 's/__cplusplus/NEVER/' 'undefined reference to .rho_udpm_' link_all
+    sees udpm.h 's/RHO_BEGIN_C//; s/RHO_END_C//' 'undefined reference to .rho_udpm_' link_all
 check 'seen: the tracker without extern "C"' \
-    sees tracker.h 's/__cplusplus/NEVER/' 'undefined reference to .rho_tracker_step' tracks
+    sees tracker.h 's/RHO_BEGIN_C//; s/RHO_END_C//' 'undefined reference to .rho_tracker_step' tracks
 finish

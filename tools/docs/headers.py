@@ -137,7 +137,8 @@ class Reference:
     def page(self, path):
         """reStructuredText of a header."""
         text = self.headers[path]
-        text = re.sub(r'#ifdef __cplusplus.*?#endif', "", text, flags=re.DOTALL)
+        text = re.sub(r"#ifdef __cplusplus.*?#endif|^RHO_(BEGIN|END)_C$", "", text,
+                      flags=re.DOTALL | re.MULTILINE)
         guard = re.search(r"#ifndef (RHOTRACK_\w+)\n#define \1\n", text)
         head, text = text[:guard.start()], text[guard.end():]
         about = prose(COMMENT.findall(head)[-1])

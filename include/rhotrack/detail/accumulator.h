@@ -27,9 +27,7 @@
 #include "rhotrack/detail/votes_picture.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Largest number of scans, each of which has a bit in a cell. */
 #define RHO_ACCUMULATOR_SCANS_MAX 16u
@@ -193,8 +191,6 @@ int rho_accumulator_cell_of_point(const struct rho_accumulator *accumulator, uns
 /* theta of the lines through the centres of a row of cells. Constant cost. */
 float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsigned theta_cell);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -22,9 +22,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_ASSIGNMENT_NONE (-1)
 /* Largest magnitude of a pair's cost, thousandths of a nat. */
@@ -92,8 +90,6 @@ void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from_
 /* True for an initialised object. Constant cost. */
 int rho_assignment_is_ready(const struct rho_assignment *assignment);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -28,9 +28,7 @@
 
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* The base: positions of two sensors, at least RHO_CROSSING_BASE_MIN_M apart. */
 #define RHO_CROSSING_BASE_MIN_M 1.0f
@@ -88,8 +86,6 @@ void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_
                              float bearing_b_rad, float sigma_a_rad, float sigma_b_rad,
                              float covariance_m2[3]);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

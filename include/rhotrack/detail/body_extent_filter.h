@@ -26,9 +26,7 @@
 
 #include "rhotrack/body.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Starts a body whose extent is unknown; prior_m2: variance of a place on it, on each axis. */
 void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float prior_m2);
@@ -70,8 +68,6 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
 /* Fills *shape with length, width, heading and their sigmas. Constant cost. */
 void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -23,9 +23,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Most speed of a standing target, in half widths of the notch and in the speed's sigmas. */
 #define RHO_NOTCH_STAND_WIDTHS 2.0f
@@ -63,8 +61,6 @@ float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *
 float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho_notch_look *look,
                                int num_states, float *state, float *covariance);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -16,9 +16,7 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Planes of velocity space that the Hough gate uses; values to be or-ed. */
 #define RHO_GATE_PLANE_XY 1u
@@ -116,8 +114,6 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
 int rho_gate_test_bearing(const struct rho_gate *gate, const struct rho_bearing *bearing, float x_m,
                           float y_m, struct rho_gate_result *result);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -32,9 +32,7 @@
 #include "rhotrack/detail/bearing_crossing.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /*
  * Why a crossing of two bearings is kept as a possible target, or eliminated as a ghost: its fate
@@ -89,8 +87,6 @@ unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule ru
 /* Name of a reason in lower case ("kept", "sides", ...); "unknown" for any other value. */
 const char *rho_ghost_reason_name(enum rho_ghost_reason reason);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

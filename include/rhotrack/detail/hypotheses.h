@@ -37,9 +37,7 @@
 #include "rhotrack/detail/kalman.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_HYPOTHESES_SLOTS (RHO_MAX_TRACKS + 1) /* one more, for a track that is being started */
 #define RHO_HYPOTHESES_OF_TRACK 8
@@ -293,8 +291,6 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *po
  */
 int rho_hypotheses_is_sound(const struct rho_hypotheses *pool);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

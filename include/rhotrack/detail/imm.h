@@ -38,9 +38,7 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_IMM_STATES 9
 
@@ -248,8 +246,6 @@ RHO_MUST_CHECK enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float
  */
 void rho_imm_estimate(const struct rho_imm *imm, struct rho_kalman *estimate, float accel_mps2[3]);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

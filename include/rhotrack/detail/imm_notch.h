@@ -6,9 +6,7 @@
 #include "rhotrack/detail/doppler_notch.h"
 #include "rhotrack/detail/imm.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Probability of a blind look, over both models. Cost: twice rho_notch_blind_probability. */
 float rho_imm_blind_probability(const struct rho_imm *imm, const struct rho_sensor *sensor);
@@ -19,8 +17,6 @@ float rho_imm_blind_probability(const struct rho_imm *imm, const struct rho_sens
 void rho_imm_update_by_miss(struct rho_imm *imm, const struct rho_sensor *sensor,
                             const struct rho_notch_look *look);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

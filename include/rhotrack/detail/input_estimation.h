@@ -40,9 +40,7 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_INPUT_AXES 3
 
@@ -183,8 +181,6 @@ void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estima
  */
 void rho_input_gate_estimate(const struct rho_input *input, struct rho_kalman *estimate);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -19,9 +19,7 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_AXES 3
 #define RHO_KALMAN_STATES (2 * RHO_AXES)
@@ -189,8 +187,6 @@ static inline int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis)
     return kalman->covariance[RHO_AT(axis, axis)] > 0.0f;
 }
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

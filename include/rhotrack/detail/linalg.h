@@ -17,9 +17,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 #define RHO_LINALG_MAX 12
 #define RHO_TRIANGLE(n) ((n) * ((n) + 1) / 2)
@@ -129,8 +127,6 @@ int rho_linalg_gated_nis(int n, float *s, float *d, float distance2_max, float *
  */
 void rho_linalg_rotate6(float p[21], int a, int b, float c, float s);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

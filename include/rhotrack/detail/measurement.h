@@ -22,9 +22,7 @@
 
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Limits of gates: 99.9 % quantiles of chi-square in 1 to 4 dimensions. */
 #define RHO_GATE_CHI2_1D 10.8276f
@@ -148,8 +146,6 @@ static inline int rho_measurement_is_ambiguous(const struct rho_sensor *sensor)
 int rho_measurement_covers(const struct rho_sensor *sensor, float sector_from_rad,
                            float sector_to_rad, float x_m, float y_m);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

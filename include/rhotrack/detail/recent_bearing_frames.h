@@ -17,9 +17,7 @@
 #include "rhotrack/detail/bearing_crossing.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* fewest scans that are searched for tracks: two tell a velocity, and two more test it */
 #define RHO_BATCH_SCANS_MIN 4u
@@ -101,8 +99,6 @@ void rho_batch_compact(struct rho_batch *batch);
  */
 int rho_batch_is_sound(const struct rho_batch *batch);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

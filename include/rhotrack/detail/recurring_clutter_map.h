@@ -32,9 +32,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* Hits from which an echo counts as known: only known echoes are saved, shown and counted. */
 #define RHO_ECHO_KNOWN_HITS 6
@@ -218,8 +216,6 @@ void rho_clutter_map_start_echo(const struct rho_clutter_map *map, struct rho_ec
  */
 void rho_clutter_map_free_places(struct rho_clutter_map *map, uint32_t num, int64_t time_us);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

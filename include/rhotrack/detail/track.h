@@ -28,9 +28,7 @@
 #include "rhotrack/detail/recurring_clutter_map.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 enum rho_track_status {
     RHO_TRACK_FREE = 0,  /* an empty slot */
@@ -278,8 +276,6 @@ void rho_track_add_score(struct rho_track *track, int32_t gain_mnat);
 /* Counts a miss: subtracts loss_mnat >= 0 from the score; confirmed tracks coast. Constant cost. */
 void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

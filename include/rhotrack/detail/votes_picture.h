@@ -21,9 +21,7 @@
 
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 struct rho_votes_picture {
     /* window of cells to show; theta_cells or rho_cells 0: all cells in that direction */
@@ -47,8 +45,6 @@ RHO_MUST_CHECK enum rho_status rho_votes_picture_init(struct rho_votes_picture *
 void rho_votes_picture_enter_cell(struct rho_votes_picture *plane, unsigned theta_cell,
                                   unsigned rho_cell, uint32_t votes);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -21,9 +21,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RHO_BEGIN_C
 
 /* A rectangle of the plane; empty while x_min_m > x_max_m. */
 struct rho_extent {
@@ -287,8 +285,6 @@ void rho_extent_add(struct rho_extent *extent, float x_m, float y_m);
  */
 int rho_window_is_sound(const struct rho_window *window);
 
-#ifdef __cplusplus
-}
-#endif
+RHO_END_C
 
 #endif

@@ -51,6 +51,10 @@ void learned_report_print(const struct rho_tracker *tracker,
             fprintf(to, ", sensor %" PRId32 "'s pd is down to %.2f", sensor->sensor_id,
                     (double)least);
         }
+        if (known.lasting_rad > 0) {
+            fprintf(to, ", sensor %" PRId32 "'s bearings have lasting errors of %.3f rad",
+                    sensor->sensor_id, (double)known.lasting_rad);
+        }
         if (known.notch_mps > 0) {
             fprintf(to, ", sensor %" PRId32 " is blind within %.1f m/s of zero Doppler",
                     sensor->sensor_id, (double)known.notch_mps);
@@ -82,6 +86,9 @@ struct cJSON *learned_report_sensors_json(const struct rho_tracker *tracker)
         }
         cJSON_AddItemToObject(object, "pd", rings);
         cJSON_AddNumberToObject(object, "looks", known.looks);
+        if (known.lasting_rad > 0) {
+            cJSON_AddNumberToObject(object, "lasting_rad", (double)known.lasting_rad);
+        }
         if (known.notch_mps > 0) {
             cJSON_AddNumberToObject(object, "notch_mps", (double)known.notch_mps);
         }
