@@ -85,7 +85,8 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
 
 static float pd_at(const struct rho_look *look, struct place at)
 {
-    const float ratio = (1.0f + at.ring->excess) * (1.0f + at.octant->excess);
+    const float ratio =
+        rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
     return ratio < 1.0f || ratio > 1.0f ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
                                         : look->pd;
 }

@@ -117,6 +117,11 @@
 #define PLACE_LOOKS 6.0f
 #define PLACE_SAME 0.1f
 /*
+ * Least P_D of a place over that of all. Half: objects that are seldom seen, as echoes of the
+ * second time around, pass for targets there. Twice: P_D is never lowered by place.
+ */
+#define PLACE_LEAST 0.5f
+/*
  * P_D of a look whose bearings fill their room, over its usual one. Half: its hits are worth next
  * to nothing. Twice: bearings that were left out count as misses, and end tracks.
  */

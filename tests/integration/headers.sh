@@ -94,5 +94,6 @@ check 'seen: rhotrack.h lacks a header' \
 check 'seen: a header without extern "C"' \
     sees udpm.h 's/RHO_BEGIN_C//; s/RHO_END_C//' 'undefined reference to .rho_udpm_' link_all
 check 'seen: the tracker without extern "C"' \
-    sees tracker.h 's/RHO_BEGIN_C//; s/RHO_END_C//' 'undefined reference to .rho_tracker_step' tracks
+    sees tracker.h 's/RHO_BEGIN_C//; s/RHO_END_C//' 'undefined reference to .rho_tracker_step' \
+    tracks
 finish

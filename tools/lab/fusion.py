@@ -47,11 +47,19 @@ def with_camera(rate_hz, sigma_rad, pd, false_bearings, is_told):
     return {**SCENE, "passive": [camera if is_told else {**camera, "told": {"pd": 0.9}}]}
 
 
-def with_swaying_camera(rate_hz, sigma_rad, sway_s):
-    scene = with_camera(rate_hz, sigma_rad, 0.9, 2, True)
-    error = ({"sway_rad": SWAY_RAD, "sway_s": sway_s} if sway_s else {"azimuth_bias_rad": SWAY_RAD,
-                                                                      "told": {"azimuth_bias_rad": 0}})
-    return {**scene, "passive": [{**scene["passive"][0], **error}]}
+def swaying_cameras(rate_hz):
+    """{name: scene} of cameras whose errors last: in each target's bearings, or a bias."""
+    camera = with_camera(rate_hz, SWAYING_RAD[0], 0.9, 2, True)["passive"][0]
+    bias = {"azimuth_bias_rad": SWAY_RAD, "told": {"azimuth_bias_rad": 0}}
+    errors = {
+        "a bias" if sway_s == 0 else f"period {sway_s} s":
+            bias if sway_s == 0 else {"sway_rad": SWAY_RAD, "sway_s": sway_s} for sway_s in SWAYS_S
+    }
+    return {
+        f"{rate_hz:g} Hz, lasting errors, {sigma_rad:g} rad, {name}":
+            {**SCENE, "passive": [{**camera, "sigma_rad": sigma_rad, **error}]}
+        for sigma_rad, (name, error) in itertools.product(SWAYING_RAD, errors.items())
+    }
 
 
 def name_of(kind, pd, false_bearings):
@@ -73,11 +81,8 @@ def cameras(options):
         for rate_hz, sigma_rad, is_told in itertools.product(
             options.rate or RATES_HZ, options.sigma or SIGMAS_RAD, (True, False))
     } | {
-        f"{rate_hz:g} Hz, lasting errors": {
-            f"{rate_hz:g} Hz, lasting errors, {sigma:g} rad, " +
-            (f"period {sway_s} s" if sway_s else "a bias"): with_swaying_camera(rate_hz, sigma, sway_s)
-            for sigma, sway_s in itertools.product(SWAYING_RAD, SWAYS_S)
-        } for rate_hz in options.rate or RATES_HZ
+        f"{rate_hz:g} Hz, lasting errors": swaying_cameras(rate_hz)
+        for rate_hz in options.rate or RATES_HZ
     }
 
 
