@@ -132,6 +132,7 @@ static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *l
 struct bearing_mix {
     struct rho_track_bearing as_one; /* the one bearing that changes the estimate as they all do */
     float hit;                       /* probability that one of them is the track's */
+    float seeing;                    /* share of targets that no other track's bearing covers */
     float gain_nat; /* ln of the likelihood of them all, or a miss, over that of clutter */
     float share;    /* information of the mix, over that of a certain bearing */
 };
@@ -166,7 +167,8 @@ static float expected_bearing_rad(const struct rho_bearing_scan *scan,
 
 /*
  * Mixes the bearings in a track's gate, as probabilistic data association does ("Bearings are
- * weighed" in src/DESIGN.md, with these letters). A bearing of more than half of W is claimed.
+ * weighed" in src/DESIGN.md, with these letters). A bearing of more than half of W is claimed. Where
+ * another track's bearing lies, a target may be behind that one, and its miss says nothing.
  */
 static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
                                        const struct rho_look *look, unsigned row)
@@ -183,7 +185,8 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
                     ? rho_exp(seen.log_miss)
                     : 1.0f;
     const float lasting_rad2 = look->lasting_looks * look->lasting_rad2;
-    float hit = 0.0f, mean = 0.0f, square = 0.0f, noise = 0.0f, total = 0.0f, best = 0.0f;
+    float covered = 0.0f, hit = 0.0f, mean = 0.0f, square = 0.0f, noise = 0.0f, total = 0.0f,
+          best = 0.0f;
     struct rho_gate gate;
     rho_score_open_gate(look, track, 0, &gate);
     for (uint32_t i = 0; i < look->num_gated; i++) {
@@ -193,8 +196,9 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         if (!score_bearing(look, &gate, track, seen.log_pd, i, &at, &gain_nat)) {
             continue;
         }
-        const float weight =
-            free_share(tracker, row, i) * rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
+        const float left = free_share(tracker, row, i);
+        covered = rho_larger(covered, (1.0f - left) * rho_exp(-0.5f * at.distance2));
+        const float weight = left * rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
         const int64_t time_us = scan->time_us + bearing->offset_us;
         const float off_rad =
             rho_angle_wrap(bearing->bearing_rad - expected_bearing_rad(scan, track, time_us));
@@ -209,7 +213,8 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
             mix.as_one.time_us = time_us;
         }
     }
-    sum += hit;
+    sum += covered * (1.0f - sum) + hit;
+    mix.seeing = 1.0f - covered;
     mix.hit = hit / sum;
     mix.gain_nat = rho_log(sum);
     mix.as_one.row = (int16_t)(best > 0.5f * sum ? mix.as_one.row : -1);
@@ -237,7 +242,8 @@ static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
         const struct rho_track *track = &tracker->tracks[i];
         if (track->status != RHO_TRACK_FREE && rho_look_has_in_view(look, i) &&
             rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
-            rho_pd_count(row, track->visible, mix_bearings(tracker, look, i).hit);
+            const struct bearing_mix mix = mix_bearings(tracker, look, i);
+            rho_pd_count(row, track->visible * mix.seeing, mix.hit);
         }
     }
     rho_pd_open(look, row);

@@ -21,7 +21,8 @@ MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_HOUGH_VOTE", "RHO_PAPER_RHO_
 
 
 def declarations(compiler, include):
-    """What the headers declare, without those of the system and inline functions."""
+    """What the headers declare, without those of the system, inline functions, and tests of
+    capacities."""
     command = [compiler, "-E", *FLAGS, f"-I{include}", f"-I{HERE}", "-x", "c", "-"]
     text = subprocess.run(command, input=SOURCE, capture_output=True, text=True, check=True).stdout
     lines, is_own = [], False
@@ -31,8 +32,8 @@ def declarations(compiler, include):
                 "python_interface.h")
         elif is_own:
             lines.append(line)
-    text = re.sub(r"static inline [^{;]*\{.*?\n\}|__attribute__\(\(\w+\)\)", "",
-                  "\n".join(lines), flags=re.DOTALL)
+    text = re.sub(r"static inline [^{;]*\{.*?\n\}|__attribute__\(\(\w+\)\)|"
+                  r"typedef char \w+_must_be_[^;]*;", "", "\n".join(lines), flags=re.DOTALL)
     return re.sub(r"\[([^]]*\?[^]]*)\]", lambda size: f"[{chosen(size[1])}]", text)
 
 

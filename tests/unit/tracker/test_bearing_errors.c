@@ -85,13 +85,19 @@ static double rms_m_with(error_of error, float learn_noise_max, uint64_t seed)
     return sqrt(square / rows);
 }
 
-static double mean_rms_m(error_of error, float learn_noise_max)
+/* Of eleven seeds: now and then a track that was pulled away at first goes on beside the boat. */
+static double median_rms_m(error_of error, float learn_noise_max)
 {
-    double sum = 0.0;
-    for (uint64_t seed = 1; seed <= 8; seed++) {
-        sum += rms_m_with(error, learn_noise_max, seed);
+    double rms_m[11];
+    for (int i = 0; i < 11; i++) {
+        const double one_m = rms_m_with(error, learn_noise_max, (uint64_t)i + 1);
+        int at = i;
+        for (; at > 0 && rms_m[at - 1] > one_m; at--) {
+            rms_m[at] = rms_m[at - 1];
+        }
+        rms_m[at] = one_m;
     }
-    return sum / 8.0;
+    return rms_m[5];
 }
 
 static double no_error(int boat, double t_s)
@@ -113,10 +119,10 @@ static void errors_that_last_do_not_pull_tracks(void **state)
 {
     static const error_of lasting[2] = {a_bias, bow_to_stern};
     (void)state;
-    const double alone_m = mean_rms_m(NULL, 4.0f);
+    const double alone_m = median_rms_m(NULL, 4.0f);
     for (int i = 0; i < 2; i++) {
-        const double believed_m = mean_rms_m(lasting[i], 1.0f);
-        const double with_m = mean_rms_m(lasting[i], 4.0f);
+        const double believed_m = median_rms_m(lasting[i], 1.0f);
+        const double with_m = median_rms_m(lasting[i], 4.0f);
         print_message("%.1f m alone, %.1f m with a camera, %.1f m where it is believed\n", alone_m,
                       with_m, believed_m);
         assert_true(believed_m > 1.5 * alone_m);
@@ -130,8 +136,8 @@ static void errors_that_last_do_not_pull_tracks(void **state)
 static void bearings_as_stated_are_believed(void **state)
 {
     (void)state;
-    const double alone_m = mean_rms_m(NULL, 4.0f);
-    const double with_m = mean_rms_m(no_error, 4.0f);
+    const double alone_m = median_rms_m(NULL, 4.0f);
+    const double with_m = median_rms_m(no_error, 4.0f);
     print_message("%.1f m alone, %.1f m with a camera\n", alone_m, with_m);
     assert_true(with_m < 0.85 * alone_m);
 }
