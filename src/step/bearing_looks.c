@@ -167,8 +167,8 @@ static float expected_bearing_rad(const struct rho_bearing_scan *scan,
 
 /*
  * Mixes the bearings in a track's gate, as probabilistic data association does ("Bearings are
- * weighed" in src/DESIGN.md, with these letters). A bearing of more than half of W is claimed. Where
- * another track's bearing lies, a target may be behind that one, and its miss says nothing.
+ * weighed" in src/DESIGN.md, with these letters). A bearing of more than half of W is claimed.
+ * Where another track's bearing lies, a target may be behind it, and its miss says nothing.
  */
 static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
                                        const struct rho_look *look, unsigned row)

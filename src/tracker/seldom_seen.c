@@ -13,7 +13,7 @@
  * that of a probably hidden target or blind look counts less. Three sure hits are 3.6. Tracks whose
  * score reached the confirm threshold and whose e fell by a hit below 0 are counted as seldom seen,
  * tracks with 16 hits as established. Where D of the former and G of the latter came in the last
- * half an hour, a track is shown from
+ * half an hour, or soon will (e is 7.2), a track is shown from
  *
  *      e = 3.6 + ln(10 (D - W - sqrt(D) / 2) / (G + 2))
  *
@@ -25,6 +25,7 @@
 
 /* Evidence of the three hits that start a track, and of a track that is almost established. */
 #define START_NAT (HIT_NAT * 3.0f)
+#define ALMOST_ESTABLISHED_NAT (START_NAT * 2.0f)
 
 static float evidence_of_target(const struct step *step, const struct rho_track *track)
 {
@@ -68,10 +69,19 @@ void rho_evidence_update(struct step *step)
         }
     }
     step->miss_nat = rho_log(((1.0f - SELDOM) * hits + misses) / misses);
+    float almost = 0.0f; /* tracks not yet established, but nearly */
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        almost += !rho_life_is_established(track) &&
+                          evidence_of_target(step, track) >= ALMOST_ESTABLISHED_NAT
+                      ? 1.0f
+                      : 0.0f;
+    }
     const float wanted =
         tracker->wanted_per_hour * rho_larger(sensors, 1.0f) * (MEMORY_S / 3600.0f);
     const float excess = tracker->seldom - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->seldom);
-    const float odds = TRUE_PER_FALSE * excess / (tracker->established + ESTABLISHED_PRIOR);
+    const float odds =
+        TRUE_PER_FALSE * excess / (tracker->established + almost + ESTABLISHED_PRIOR);
     /* wanted_per_hour is 0 where score_min_nat sets the threshold: no evidence is needed then */
     step->needed_nat =
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;

@@ -169,7 +169,7 @@ static void the_evidence_needed_equals_its_formula(void **state)
     begin_tracker();
     make_track(0, 100, 20);
     make_track(1, 16, 5); /* established */
-    make_track(2, 15, 5); /* not yet established */
+    make_track(2, 15, 5); /* not yet established, but almost, by its evidence */
     make_track(3, 7, 3);
     tracker.wanted_per_hour = 3.0f;
     tracker.seldom = 20.0f;
@@ -183,8 +183,13 @@ static void the_evidence_needed_equals_its_formula(void **state)
     expect_close((double)tracker.seldom, ended);
     expect_close((double)tracker.established, established);
     expect_close((double)at.miss_nat, log((1.0 - 0.3 * pd) / (1.0 - pd)));
+    const double miss_nat = (double)at.miss_nat;
+    /* almost: the evidence of twice three hits */
+    assert_true(15.0 * hit_nat - 5.0 * miss_nat > 6.0 * hit_nat);
+    assert_true(7.0 * hit_nat - 3.0 * miss_nat < 6.0 * hit_nat);
     const double excess = ended - wanted - 0.5 * sqrt(ended);
-    expect_close((double)at.needed_nat, 3.0 * hit_nat + log(10.0 * excess / (established + 2.0)));
+    expect_close((double)at.needed_nat,
+                 3.0 * hit_nat + log(10.0 * excess / (established + 1.0 + 2.0)));
     /* one hit more or less than the evidence needed */
     const double needed = (double)at.needed_nat;
     const uint16_t hits = (uint16_t)ceil(needed / hit_nat);
