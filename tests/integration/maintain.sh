@@ -97,7 +97,7 @@ check 'json: what it must hold' json stdout '(o["gate"], o["input_estimation"], 
 check 'json: fates add up' json stdout '(o["fates"]["claimed"], o["fates"]["held"],
     sum(o["fates"].values()), sorted(o["fates"])) == (
     161, 632, 793, ["claimed", "ghost", "held", "invalid", "no_room", "stale"])'
-check 'json: cost' json stdout 'o["max_us"] >= o["mean_us"] > 0 and 0 < o["state_bytes"] <= 544'
+check 'json: cost' json stdout 'o["max_us"] >= o["mean_us"] > 0 and 0 < o["state_bytes"] <= 560'
 run maintain sharp/plots.csv --gate hough --json -o out.csv
 check 'json with -o: tracks in the file' cmp hough.csv out.csv
 run maintain sharp/plots.csv --gate hough --covariance
