@@ -570,7 +570,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
  * score at which tracks end or beyond 1e9, a plot later than the last scan by more than
  * RHO_LIMIT_OFFSET_US, a row beyond the scan), CAPACITY (no room), and those of rho_track_start; no
  * track is started, and *report is unchanged.
- * Cost: a filter step a plot, and the report. Stack: 2.9 KB.
+ * Cost: a filter step a plot, and the report. Stack: 3 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
                                                        const struct rho_track_plot *plots,
