@@ -23,6 +23,7 @@ TURN_S, TURNS = 1.68, 120
 ALONE = "radar alone"
 RATES_HZ, SIGMAS_RAD = (5, 0.5), (0.01, 0.06)
 DETECTED, FALSE = (0.95, 0.7, 0.3, 0.1), (0, 2, 15)
+COLUMNS = 5  # of the picture
 SWAYS_S = (0, 60, 20)  # 0: a bias
 SWAY_RAD, SWAYING_RAD = 0.04, (0.003, 0.01)
 # Bars of a camera: completeness and switches less the radar's, rms over the radar's
@@ -119,9 +120,12 @@ def draw(report, differences):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, rows = plt.subplots(1, len(differences), figsize=(3 * len(differences), 3.6),
-                                sharey=True, squeeze=False)
-    for axes, (kind, by_name) in zip(rows[0], differences.items()):
+    num_rows = -(-len(differences) // COLUMNS)
+    figure, places = plt.subplots(num_rows, COLUMNS, figsize=(16, 3.6 * num_rows), squeeze=False,
+                                  layout="constrained")
+    for axes in places.flat[len(differences):]:
+        axes.remove()
+    for axes, (kind, by_name) in zip(places.flat, differences.items()):
         values = np.array([found["completeness"][0] for found in by_name.values()])
         axes.barh(range(len(values)), values, color=["#d1242f" if value < LESS_COMPLETE
                                                      else "#1f5fbf" for value in values])
