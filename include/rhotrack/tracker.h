@@ -259,9 +259,9 @@ struct rho_tracker_learned {
 
 /* Pairs of a passive sensor's bearing and a plot of its track before it (bearing_errors.c). */
 struct rho_bearing_errors {
-    float pairs; /* number; halved with the sums at 1000 */
-    float weight,
-        excess; /* sums of weights, and of weights times squares beyond the stated noise */
+    float pairs;  /* number; halved with the sums at 1000 */
+    float weight; /* sum of weights */
+    float excess; /* sum of weights times squares beyond the stated noise */
 };
 
 /* Scan interval of a sensor, measured in one direction. */
