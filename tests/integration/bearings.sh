@@ -232,7 +232,7 @@ check 'JSON: what was held' json stdout \
     '4 <= o["counters"]["plots_initiated"] <= o["fates"]["held"]'
 # a pool of 6 000 hypotheses of some 400 bytes, and 2 000 tracks; with the initiator of plots it
 # were 7 million
-check 'JSON: the objects in use' json stdout '2400000 < o["state_bytes"] < 5800000'
+check 'JSON: the objects in use' json stdout '2400000 < o["state_bytes"] < 5900000'
 awk -F, '!($1 == "150.000000" && $2 == 2)' long/bearings.csv >incomplete.csv
 run track incomplete.csv --config long/scenario.ini -o tracks.csv
 check 'a frame that misses a sensor is counted' matches "$(cat stderr)" \

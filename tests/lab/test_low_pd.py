@@ -94,13 +94,13 @@ class EndToEnd(unittest.TestCase):
                                "--false", "0")
         self.assertEqual([found["case"] for found in report["cases"]], [
             fusion.ALONE, "0.5 Hz, 0.01 rad, told, P_D 0.95, 0 false",
-            "0.5 Hz, 0.01 rad, told P_D .9, P_D 0.95, 0 false"
+            "0.5 Hz, 0.01 rad, told P_D .9, P_D 0.95, 0 false", *fusion.swaying_cameras(0.5)
         ])
         self.assertGreater(report["oracle"]["completeness"], 0.95)
         self.assertLess(report["oracle"]["rms_m"], 4.0)
         alone, with_it = (found["completeness"] for found in report["cases"][:2])
         bars = {bar["what"]: bar for bar in report["bars"]}
-        self.assertEqual(len(bars), 6)
+        self.assertEqual(len(bars), 9)
         bar = bars["0.5 Hz, 0.01 rad, told: completeness less the radar's"]
         self.assertEqual(bar["at_least"], -0.005)
         self.assertAlmostEqual(bar["value"], with_it - alone)

@@ -79,7 +79,7 @@ BARS = [
      "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=16 -DRHO_MAX_BEARINGS=16 "
      "-DRHO_PROFILE_WORKSTATION"),
     ("kalman", "state and covariance", 108, ""),
-    ("track", "in any of its modes", 544, ""),
+    ("track", "in any of its modes", 560, ""),
     ("hypothesis", "two models and its plots", 512, ""),
     ("scan_assembler", "two open scans of 256 plots", 32 * 1024,
      "-DRHO_MAX_OPEN_SCANS=2 -DRHO_MAX_PLOTS=256"),

@@ -43,7 +43,11 @@ def macros():
     """(name, default, least, most, comment) of config.h's macros whose embedded default is a
     number."""
     text = (HOME / "include/rhotrack/config.h").read_text(encoding="utf-8")
-    ranges = dict(re.findall(r'#error "(RHO_\w+) must be ([^"]*)"', text))
+    ranges = {
+        name: (least, most) for name, least, most in
+        re.findall(r"RHO_CONFIG_RANGE\((RHO_\w+), (\d+), (\d+)\)", text) +
+        re.findall(r'#error "(RHO_\w+) must be [^"]*?(\d+) \.\. (\d+)"', text)
+    }
     comment = ""
     pattern = r"/\*(.*?)\*/|^#ifndef (RHO_\w+)\n#define \2 +([^\n]*)$"
     for found in re.finditer(pattern, text, re.S | re.M):
@@ -51,9 +55,8 @@ def macros():
             comment = re.sub(r"\s*\n \*? ?", " ", found[1]).strip()
             continue
         default = re.fullmatch(r"(?:RHO_CONFIG_PICK\()?(\d+)(?:, \d+\))?", found[3].strip())
-        limits = re.search(r"(\d+) (?:\.\.|or) (\d+)$", ranges.get(found[2], ""))
-        if default and limits:
-            yield found[2], default[1], limits[1], limits[2], comment
+        if default and found[2] in ranges:
+            yield found[2], default[1], *ranges[found[2]], comment
 
 
 def kconfig():
