@@ -294,7 +294,7 @@ run track plots.csv --set range_max_m=50000 --set sensor.1.pd=0.8 --json
 check 'limits of sensors are taken' exits 0
 
 # ---- scans ----
-{ cat plots.csv; for k in 12 13 14 15 16 17 18 19 20 21; do echo "$((10 * k)),1,,"; done; } >ends.csv
+{ cat plots.csv; for k in {12..21}; do echo "$((10 * k)),1,,"; done; } >ends.csv
 run track ends.csv
 check 'a scan that saw nothing counts' grep -q 'rhotrack: 22 scans, 24 plots' stderr
 check 'and tracks coast' awk -F, '$3 == "coasting" && $18 == -1 { n++ } END { exit !n }' stdout
