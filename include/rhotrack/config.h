@@ -302,7 +302,7 @@
 
 /* Passive sensors. */
 
-/* Bearings of one scan of a passive sensor; the rest get the fate NO_ROOM. 1 .. 64. */
+/* Bearings of one scan of a passive sensor; the rest get NO_ROOM, and P_D counts half. 1 .. 64. */
 #ifndef RHO_MAX_BEARINGS
 #define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
 #endif

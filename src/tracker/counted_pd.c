@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * counted_pd: the P_D of a sensor by its looks at confirmed tracks: of all, and by place.
+ * counted_pd: the P_D of a sensor by its looks at tracks: of all, and by place. Plots count at
+ * confirmed tracks, bearings at all tracks, each by the probability that its target is there.
  *
- * The stated P_D counts as a few looks beside them, so that a sensor that sees less than it states
+ * The stated P_D counts as one look beside them, so that a sensor that sees less than it states
  * takes it out on itself and not on the tracks. A place is a ring of range and an octant of
  * azimuth. Each has the hits there over those that P_D of all looks expects: P_D at a place is that
  * of all looks, times the ratios of its ring and its octant where they are not 1 by chance. Misses
