@@ -57,7 +57,7 @@ def array_of(pointer: Any, count: int, dtype: Any) -> np.ndarray:
 
 def pointer_to(array: np.ndarray, ctype: str) -> Any:
     """The memory of an array, which must outlive the pointer."""
-    return ffi.cast(ctype, array.ctypes.data)
+    return ffi.cast(ctype, ffi.from_buffer(array))
 
 
 def plain(value: Any) -> Any:

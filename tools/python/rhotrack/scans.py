@@ -2,6 +2,7 @@
 """Scans: what sensors saw, as structured arrays whose fields are the columns of CSV files."""
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Sequence
 from typing import Any, Iterable
@@ -274,11 +275,10 @@ def _picked(rows: np.ndarray, names: list[str]) -> np.ndarray:
     return picked
 
 
-def _full(array: np.ndarray) -> np.ndarray:
-    """Rows with all fields, in the layout of C."""
-    if array.dtype == ROW:
-        return array
-    names = array.dtype.names
+@functools.lru_cache(64)
+def _copied(dtype: np.dtype) -> list[str]:
+    """The fields that a row in C's layout takes as they are; Error: these are no scans."""
+    names = dtype.names
     for name in ("t_s", "sensor_id"):
         if name not in names:
             raise Error(f"the field {name} is missing; there is: {', '.join(names)}")
@@ -287,15 +287,23 @@ def _full(array: np.ndarray) -> np.ndarray:
     if not {"x_m", "range_m", "bearing_rad"} & set(names):
         raise Error("one of the fields x_m, range_m and bearing_rad is missing")
     for name in set(names) & {*ROW.names, "azimuth_deg", "elevation_deg"}:
-        if array.dtype[name].kind not in "fiub" or array.dtype[name].shape:
-            raise Error(f"{name}: numbers are wanted, not {array.dtype[name]}"
+        if dtype[name].kind not in "fiub" or dtype[name].shape:
+            raise Error(f"{name}: numbers are wanted, not {dtype[name]}"
                         + ("; seconds are (t - t[0]) / np.timedelta64(1, 's')"
-                           if array.dtype[name].kind == "M" else ""))
+                           if dtype[name].kind == "M" else ""))
+    return [name for name in names if name in ROW.names]
+
+
+def _full(array: np.ndarray) -> np.ndarray:
+    """Rows with all fields, in the layout of C."""
+    if array.dtype == ROW:
+        return array
+    copied, names = _copied(array.dtype), array.dtype.names
     _check_ids(array["sensor_id"])
-    rows = np.full(len(array), _BLANK).view(ROW)
-    for name in names:
-        if name in ROW.names:
-            rows[name] = array[name]
+    rows = np.empty(len(array), ROW)
+    rows.view(_BLANK.dtype).fill(_BLANK)
+    for name in copied:
+        rows[name] = array[name]
     if "azimuth_deg" in names:
         angle = np.pi / 2 - np.deg2rad(array["azimuth_deg"].astype("f8"))
         rows["azimuth_rad"] = angle - 2 * np.pi * np.round(angle / (2 * np.pi))
@@ -321,7 +329,7 @@ def _flat(scans: Iterable[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if not arrays:
         return np.empty(0, ROW), counts, are_frames
     if all(array.dtype == arrays[0].dtype for array in arrays):
-        return _full(np.concatenate(arrays)), counts, are_frames
+        return _full(arrays[0] if len(arrays) == 1 else np.concatenate(arrays)), counts, are_frames
     rows = np.empty(counts.sum(), ROW)  # np.concatenate alone would leave out C's padding
     return np.concatenate([_full(array) for array in arrays], out=rows), counts, are_frames
 
