@@ -54,12 +54,12 @@ RHO_BEGIN_C
 
 /* Results of a step. */
 
-/* Number of messages (parts) of a report's tracks; 1 where it has none. Constant cost. */
+/* Number of messages (parts) of a report's tracks; 1 where it has none. Cost: tracks. */
 uint16_t rho_publish_num_parts(const struct rho_report *report);
 
 /*
- * Writes one part of the report's tracks (track_list_t): first the live tracks, then ended ones
- * with status DELETED and their identity alone.
+ * Writes one part of the report's tracks (track_list_t): first the live tracks, but those in doubt,
+ * then ended ones with status DELETED and their identity alone.
  *   part  0 .. rho_publish_num_parts - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the
  * message's bytes. Stack: 360 bytes.

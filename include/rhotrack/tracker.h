@@ -33,8 +33,9 @@
  * is hidden. Each look of each sensor changes it by that sensor's own P_D and clutter, so that a
  * sensor that sees little says little. Scans in which a sensor sees nothing of all its tracks are
  * taken for the sensor's. A track is reported as confirmed or coasting while the target probably
- * exists and clutter would not fill its place; it is tentative below, and ends where next to
- * nothing is left. How often targets leave and are hidden is learned (rho_tracker_life).
+ * exists and clutter would not fill its place. Below that it is in doubt, where messages and files
+ * leave it out, and it ends where next to nothing is left. How often targets leave and are hidden
+ * is learned (rho_tracker_life).
  *
  * Where more tracks are found to be seldom seen than false_tracks_per_hour allows, a track stays
  * tentative until it is seen as often as targets are. A track also ends when the sigma of its place
@@ -379,6 +380,8 @@ struct rho_track_report {
     /* gate best: probability of the manoeuvring model; else 1 with an input present, 0 without */
     float maneuver_probability;
     uint16_t num_hypotheses; /* gate best: hypotheses of the track; else 1 */
+    /* it was confirmed, and is tentative: messages and files leave it out until it is seen again */
+    uint8_t is_in_doubt;
 };
 
 /* The result of one step. Tracks in the order of their identities. */

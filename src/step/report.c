@@ -64,6 +64,7 @@ void rho_step_report_tracks(const struct step *step)
                 RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                     ? (uint16_t)rho_hypotheses_count(&tracker->hypotheses, track->slot)
                     : 1,
+            .is_in_doubt = track->was_confirmed && track->status == RHO_TRACK_TENTATIVE,
         };
         memcpy(out->accel_mps2, at->accel_mps2, sizeof out->accel_mps2);
         memcpy(out->state, at->kalman.state, sizeof out->state);

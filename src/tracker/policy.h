@@ -299,12 +299,8 @@
  */
 #define SHOWN 0.48f
 #define SHOWN_AGAIN 0.8f
-/*
- * Below it a track ends; one that is not established. Half: it takes a new target's first plots.
- * Twice: returning targets get new tracks.
- */
-#define ENDED 0.05f
-#define ENDED_NEW (2.0f * ENDED)
+/* Below it a track ends. Half: it takes new targets' first plots. Twice: targets return to none. */
+#define ENDED 0.02f
 /*
  * Share of targets that a look can see above which it is 1. Half: clutter draws tracks of hidden
  * targets away. Twice: each look costs two logarithms a track, for the same tracks.

@@ -22,7 +22,8 @@
  * with a lower P_D. Targets may leave together: tracks are spared for coast_scans_max scans.
  *
  * Rates of death and hiding are learned over half an hour: scans that established tracks lived,
- * ends, and expected returns. The longest hides end, too, so hiding stays above its first rate.
+ * ends, and expected returns. A track that is hidden for long is in doubt, and is kept, unlisted,
+ * until it has next to no chance: a return costs nothing then, and teaches.
  *
  * From the probabilities follow a track's status, once its score has confirmed it, and its end.
  * What the chain does not know stands beside it: seldom_seen.c, unseen_tracks.c, and places here.
@@ -104,10 +105,9 @@ struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker)
     }
     const float lived = tracker->lived + LIFE_PRIOR_SCANS;
     const float death = (tracker->gone + LIFE_PRIOR_SCANS / LIFETIME_SCANS) / lived;
-    const float hide = (tracker->returned + LIFE_PRIOR_SCANS / VISIBLE_SCANS) / lived;
     return (struct rho_tracker_life){
         .death = death,
-        .hide = rho_larger(hide, 1.0f / VISIBLE_SCANS),
+        .hide = (tracker->returned + LIFE_PRIOR_SCANS / VISIBLE_SCANS) / lived,
         .appear = 1.0f / (HIDDEN_SHARE * (float)tracker->config.coast_scans_max),
         .lived_scans = tracker->lived,
     };
@@ -208,15 +208,14 @@ static float often_nat(float ratio)
 }
 
 /* Counts for P_D; and evidence that it is a target, not an object that is seldom seen. */
-static void count_seen_or_missed(struct rho_tracker *tracker, const struct rho_look *look,
-                                 struct rho_track *track, float ratio, float seeing)
+static void count_seen_or_missed(const struct rho_look *look, struct rho_track *track, float ratio,
+                                 float seeing)
 {
     if (look->row && track->was_confirmed) {
         rho_pd_count_place(look, track, seeing * track->visible, ratio);
     }
     if (ratio > 1.0f) {
         track->seen_nat += often_nat(ratio);
-        tracker->returned += rho_life_is_established(track) ? track->appeared : 0.0f;
     } else {
         /* in misses where the sensor has its usual P_D; the square: about as the logarithms */
         const float share = (1.0f - ratio) / look->pd;
@@ -237,7 +236,7 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             const float gain = visible_gain(track, ratio);
             const float sum = 1.0f + track->visible * gain;
             if (look->scan && look->teaches) { /* bearings do not tell one object from another */
-                count_seen_or_missed(tracker, look, track, ratio, 1.0f - blind);
+                count_seen_or_missed(look, track, ratio, 1.0f - blind);
             }
             /* a blind look spares a track for as long as it may coast; else it is rather gone */
             const float spared =
@@ -245,6 +244,11 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             track->visible *= spared + (1.0f - spared) * (1.0f + gain) / sum;
             track->visible = rho_smaller(track->visible, 1.0f); /* despite rounding */
             track->hidden *= spared + (1.0f - spared) / sum;
+            /* as far as it was the target that was seen: tracks of targets that left see clutter */
+            tracker->returned +=
+                look->scan && look->teaches && ratio > 1.0f && rho_life_is_established(track)
+                    ? track->visible * track->appeared
+                    : 0.0f;
             track->look_nat = 0.0f;
             if (!look->scan) { /* of the next look of the frame */
                 track->seen_share = seeing_share(look, track);
@@ -259,8 +263,7 @@ void rho_life_apply(const struct step *step, struct rho_track *track, int32_t co
     const float exists = rho_track_existence(track);
     const int was_confirmed = track->was_confirmed;
     rho_evidence_count(step, track);
-    if (was_confirmed ? exists < (rho_life_is_established(track) ? ENDED : ENDED_NEW)
-                      : track->score_mnat < rho_life_least_mnat(tracker)) {
+    if (was_confirmed ? exists < ENDED : track->score_mnat < rho_life_least_mnat(tracker)) {
         tracker->gone += rho_life_is_established(track) ? 1.0f : 0.0f;
         rho_life_end(step, track);
         return;

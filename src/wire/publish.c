@@ -10,11 +10,15 @@
 #define PART_TRACKS RHO_MESSAGE_TRACK_LIST_MAX_TRACKS
 #define NAT(mnat) ((float)(mnat) / 1000.0f)
 
-/* Tracks: the live ones, and then the ended ones */
+/* Tracks: the live ones but those in doubt, and then the ended ones */
 
 static unsigned num_entries(const struct rho_report *report)
 {
-    return (unsigned)report->num_tracks + report->num_ended;
+    unsigned num = report->num_ended;
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        num += !report->tracks[i].is_in_doubt;
+    }
+    return num;
 }
 
 uint16_t rho_publish_num_parts(const struct rho_report *report)
@@ -68,10 +72,15 @@ enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step
     struct rho_message_writer writer;
     struct rho_message_track track;
     enum rho_status status = rho_message_track_list_begin(&writer, buffer, capacity, &head);
-    for (unsigned i = part * PART_TRACKS;
-         i < num_entries(report) && i < (part + 1u) * PART_TRACKS && status == RHO_OK; i++) {
-        if (i < report->num_tracks) {
-            fill_live_track(&report->tracks[i], &track);
+    unsigned place = 0;
+    for (unsigned i = 0; i < (unsigned)report->num_tracks + report->num_ended && status == RHO_OK;
+         i++) {
+        const struct rho_track_report *live = i < report->num_tracks ? &report->tracks[i] : NULL;
+        if ((live && live->is_in_doubt) || place++ / PART_TRACKS != part) {
+            continue;
+        }
+        if (live) {
+            fill_live_track(live, &track);
         } else {
             track = (struct rho_message_track){
                 .track_id = (int32_t)(report->ended[i - report->num_tracks] & INT32_MAX),

@@ -12,7 +12,7 @@
 
 #define CHAIN_SHOWN 0.48 /* probabilities of existence: of a track that is shown */
 #define CHAIN_SHOWN_AGAIN 0.8
-#define CHAIN_ENDED 0.05
+#define CHAIN_ENDED 0.02
 
 struct life_chain {
     double visible, hidden;
@@ -78,7 +78,7 @@ static inline enum rho_track_status chain_status(const struct life_chain *chain,
                                                  enum rho_track_status before, int is_missed)
 {
     const double least = before == RHO_TRACK_TENTATIVE ? CHAIN_SHOWN_AGAIN : CHAIN_SHOWN;
-    if (chain_exists(chain) < (chain->is_established ? CHAIN_ENDED : 2.0 * CHAIN_ENDED)) {
+    if (chain_exists(chain) < CHAIN_ENDED) {
         return RHO_TRACK_FREE;
     }
     return chain_exists(chain) < least ? RHO_TRACK_TENTATIVE

@@ -899,6 +899,9 @@ static void add_tracks_of_report(struct program_tracks *tracks, const struct rho
 {
     tracks->has_bodies = tracker->bodies.length_max_m > 0.0f;
     for (unsigned i = 0; i < report->num_tracks; i++) {
+        if (report->tracks[i].is_in_doubt) {
+            continue;
+        }
         add_track(tracks, report->time_us, &report->tracks[i]);
         if (tracks->has_bodies) {
             struct rho_body *body = &tracks->bodies[tracks->count - 1];

@@ -286,11 +286,11 @@ static void bearings_of_one_sensor_keep_a_track(void **state)
 
 /* ---- coverage of sensors --------------------------------------------------------------------- */
 
-/* Twelve frames without bearings; is_seen: the sensors looked at the target. */
+/* Sixteen frames without bearings; is_seen: the sensors looked at the target. */
 static void expect_misses_if_seen(int is_seen)
 {
     const float score_nat = report.tracks[0].score_nat;
-    for (unsigned k = 12; k < 24; k++) {
+    for (unsigned k = 12; k < 28; k++) {
         scene.targets = 0;
         see_frame(k, 10.0 * k);
         /* the sectors look west, the target is in the east */

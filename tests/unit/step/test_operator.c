@@ -262,7 +262,7 @@ static void a_frozen_track_takes_no_plots(void **state)
     assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 0, &report), RHO_OK);
     run_scans(config.coast_scans_max - 1, 0);
     assert_non_null(report_of(frozen));
-    run_scans(2 * config.coast_scans_max, 0);
+    run_scans(3 * config.coast_scans_max, 0);
     assert_null(report_of(frozen));
 }
 

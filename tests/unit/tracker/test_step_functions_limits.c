@@ -331,10 +331,10 @@ static void existence_decides_what_is_shown_and_ends(void **state)
                          RHO_TRACK_TENTATIVE);
         assert_int_equal(status_by_existence(RHO_TRACK_TENTATIVE, 0.81, hidden),
                          RHO_TRACK_CONFIRMED);
-        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.051, hidden),
+        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.021, hidden),
                          RHO_TRACK_TENTATIVE);
         assert_int_equal(report.num_ended, 0);
-        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.049, hidden), RHO_TRACK_FREE);
+        assert_int_equal(status_by_existence(RHO_TRACK_COASTING, 0.019, hidden), RHO_TRACK_FREE);
         assert_int_equal(report.num_ended, 1);
     }
 }

@@ -484,14 +484,14 @@ static void a_pause_of_the_radar_counts_as_scans_that_passed(void **state)
             misses[i]++;
         }
     }
-    assert_in_range(misses[0], 9, 12);
+    assert_in_range(misses[0], 12, 16);
     assert_in_range(misses[1], 3, misses[0] - 2);
 }
 
-/* The established track of a target behind a hill for forty seconds goes on; 13 misses end it. */
+/* The established track of a target behind a hill for forty seconds goes on; 18 misses end it. */
 static void an_established_target_hidden_for_a_while_keeps_its_identity(void **state)
 {
-    static const int missed[] = {9, 10, 13};
+    static const int missed[] = {9, 10, 18};
     (void)state;
     num_radars = 1;
     radars[0] = radar_of_80_km();
@@ -507,12 +507,12 @@ static void an_established_target_hidden_for_a_while_keeps_its_identity(void **s
             const struct rho_track_report *track = report_of(id);
             assert_true(!track || k < 5 || track->status == RHO_TRACK_TENTATIVE);
         }
-        assert_int_equal(report_of(id) != NULL, missed[i] < 13);
+        assert_int_equal(report_of(id) != NULL, missed[i] < 18);
         for (int k = 0; k < 3; k++, t_s += 4.0) {
             step_scan_of_one_target(t_s, 1, 6);
         }
-        assert_int_equal(report_of(id) != NULL, missed[i] < 13);
-        assert_true(missed[i] == 13 || report_of(id)->status == RHO_TRACK_CONFIRMED);
+        assert_int_equal(report_of(id) != NULL, missed[i] < 18);
+        assert_true(missed[i] == 18 || report_of(id)->status == RHO_TRACK_CONFIRMED);
     }
 }
 

@@ -425,7 +425,7 @@ static void misses_count_only_where_the_radar_looked(void **state)
             assert_int_equal(only_track()->status == RHO_TRACK_CONFIRMED, !views[i].is_seen);
             assert_int_equal(track_score_mnat() < score, views[i].is_seen);
         }
-        for (int k = 10; k < 20; k++) {
+        for (int k = 10; k < 26; k++) {
             step_sector(k, views[i].scan_from_rad, views[i].scan_to_rad);
         }
         /* a track that was not looked at is kept only while its place is in the radar's coverage */

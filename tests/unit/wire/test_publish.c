@@ -161,6 +161,31 @@ static void a_full_report_is_sent_in_parts(void **state)
     assert_int_equal(list.num_tracks_total, 2 * RHO_MAX_TRACKS);
 }
 
+static void tracks_in_doubt_are_left_out(void **state)
+{
+    unsigned seen = 0;
+
+    (void)state;
+    fill_report(30, 3);
+    for (unsigned i = 0; i < 30; i += 3) {
+        report.tracks[i].is_in_doubt = 1;
+    }
+    assert_int_equal(rho_publish_num_parts(&report), (20 + 3 + PART - 1) / PART);
+    for (uint16_t part = 0; part < rho_publish_num_parts(&report); part++) {
+        publish_and_read_part(part);
+        assert_int_equal(list.num_tracks_total, 23);
+        for (int i = 0; i < list.num_tracks; i++, seen++) {
+            if (seen < 20) { /* those of each three that are not the first */
+                assert_message_equals_track(&list.tracks[i],
+                                            &report.tracks[seen / 2 * 3 + seen % 2 + 1]);
+            } else {
+                assert_int_equal(list.tracks[i].status, 4);
+            }
+        }
+    }
+    assert_int_equal(seen, 23);
+}
+
 static void numbers_beyond_their_fields_are_clamped(void **state)
 {
     (void)state;
@@ -521,6 +546,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_tracks_are_sent_once_in_their_order),
         cmocka_unit_test(a_full_report_is_sent_in_parts),
+        cmocka_unit_test(tracks_in_doubt_are_left_out),
         cmocka_unit_test(numbers_beyond_their_fields_are_clamped),
         cmocka_unit_test(bad_arguments_of_publishing_are_refused),
         cmocka_unit_test(a_peak_holds_the_line_of_its_candidate),

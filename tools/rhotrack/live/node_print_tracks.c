@@ -223,7 +223,8 @@ static int print_track_rows(const struct rho_report *report, int room, FILE *out
 
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < report->num_tracks && shown < room; i++) {
-            if ((report->tracks[i].status == RHO_TRACK_TENTATIVE) == (pass == 1)) {
+            if (!report->tracks[i].is_in_doubt &&
+                (report->tracks[i].status == RHO_TRACK_TENTATIVE) == (pass == 1)) {
                 print_track_row(&report->tracks[i], out);
                 shown++;
             }

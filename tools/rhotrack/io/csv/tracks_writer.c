@@ -87,7 +87,9 @@ void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report
 void tracks_write_report(FILE *file, const struct rho_report *report, struct tracks_columns columns)
 {
     for (unsigned i = 0; i < report->num_tracks; i++) {
-        tracks_write_row(file, report->time_us, &report->tracks[i], i, columns);
+        if (!report->tracks[i].is_in_doubt) {
+            tracks_write_row(file, report->time_us, &report->tracks[i], i, columns);
+        }
     }
 }
 

@@ -288,6 +288,10 @@ void geojson_add_row(struct geojson *geojson, const struct geojson_row *row)
         track->is_over = true;
         return;
     }
+    track->seen_at = geojson->times;
+    if (track->was_confirmed && strcmp(row->status, "tentative") == 0) {
+        return; /* in doubt: where it is, is not known */
+    }
     track->points = must_make_room_for_one(track->points, track->count, &track->capacity,
                                            sizeof *track->points);
     track->points[track->count] = (struct point){.time_us = row->time_us};
@@ -295,7 +299,6 @@ void geojson_add_row(struct geojson *geojson, const struct geojson_row *row)
     track->last = *row;
     track->was_confirmed |= strcmp(row->status, "tentative") != 0;
     track->has_height |= row->state[2] != 0.0f || row->state[5] != 0.0f;
-    track->seen_at = geojson->times;
 }
 
 void geojson_end_time(struct geojson *geojson)
