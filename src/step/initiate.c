@@ -1,6 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* initiate: tracks start from the plots that no track claimed. */
 #include "phases.h"
+#include "policy.h"
+
+/* Sets the fate of the plots of tracks whose targets exist with this probability at least. */
+static void set_fate_of_tracks_plots(const struct rho_tracker *tracker, const struct rho_look *look,
+                                     float least, enum rho_fate fate)
+{
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        const struct rho_track *track = &tracker->tracks[row];
+        if (track->plot >= 0 && (uint32_t)track->plot < look->num_gated &&
+            rho_track_existence(track) >= least) {
+            look->fates[track->plot] = (uint8_t)fate;
+        }
+    }
+}
 
 /* Pushes the held plots, with the learned pd. Apart: its copies are not on the search's stack. */
 static void push_scan(struct rho_tracker *tracker, const struct rho_look *look)
@@ -12,9 +26,13 @@ static void push_scan(struct rho_tracker *tracker, const struct rho_look *look)
         sensor = *look->sensor;
         sensor.pd = look->pd;
     }
+    /* a track that clutter started, or whose target left, must not keep what a new one shows */
+    set_fate_of_tracks_plots(tracker, look, 0.0f, RHO_FATE_HELD);
+    set_fate_of_tracks_plots(tracker, look, OWNS_PLOT, RHO_FATE_CLAIMED);
     /* the push cannot fail: the step has checked the pointers and the time */
     (void)!rho_initiator_push(look->initiator, &held, look->sensor ? &sensor : 0, look->fates,
                               &tracker->counters.plots_clutter);
+    set_fate_of_tracks_plots(tracker, look, 0.0f, RHO_FATE_CLAIMED);
     if (RHO_MAX_ECHOES > 0) {
         rho_echoes_store_ratios(look);
     }
@@ -42,6 +60,16 @@ static void search_newest_scan(struct rho_tracker *tracker, const struct rho_loo
     }
 }
 
+/* Row of the track whose plot this is, or RHO_MAX_TRACKS. */
+static unsigned row_of_holder(const struct rho_tracker *tracker, unsigned plot)
+{
+    unsigned row = 0;
+    while (row < tracker->num_tracks && tracker->tracks[row].plot != (int32_t)plot) {
+        row++;
+    }
+    return row < tracker->num_tracks ? row : RHO_MAX_TRACKS;
+}
+
 static void start_from_candidates(struct step *step)
 {
     const struct rho_look *look = &step->look;
@@ -58,6 +86,16 @@ static void start_from_candidates(struct step *step)
         /* a better candidate has used its newest plot: the next scan will show another target */
         if (scan->marks[candidate->plot[newest]] & RHO_WINDOW_INITIATED) {
             continue;
+        }
+        const unsigned plot = scan->marks[candidate->plot[newest]] & RHO_WINDOW_ROW;
+        const unsigned holder = row_of_holder(step->tracker, plot);
+        if (holder < RHO_MAX_TRACKS) {
+            if (rho_life_at_start(candidate->score_mnat, step->tracker->confirm_mnat) <=
+                rho_track_existence(&step->tracker->tracks[holder])) {
+                continue;
+            }
+            rho_step_end_track(step, holder);
+            look->fates[plot] = RHO_FATE_HELD;
         }
         const unsigned n = rho_step_candidate_plots(&initiator->window, candidate, plots);
         if (rho_track_start(&track, step->tracker->next_track_id, plots, n, &look->model,

@@ -19,6 +19,14 @@
  */
 #define STEADY_SHARE 0.5f
 
+/* initiate.c */
+
+/*
+ * Probability that a track's target exists from which on its plot starts no other track. Half:
+ * tracks of clutter keep the plots of new targets. Twice, that is always: searches cost more.
+ */
+#define OWNS_PLOT 0.8f
+
 /* bearing_looks.c */
 /*
  * Least information of a mix of bearings, over that of a certain one, that changes an estimate.

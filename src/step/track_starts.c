@@ -44,6 +44,18 @@ static unsigned least_tentative(const struct rho_tracker *tracker, float least)
     return found;
 }
 
+void rho_step_end_track(struct step *step, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    rho_life_end(step, &tracker->tracks[row]);
+    tracker->num_tracks--;
+    memmove(&tracker->tracks[row], &tracker->tracks[row + 1],
+            (tracker->num_tracks - row) * sizeof tracker->tracks[0]);
+    if (RHO_KEEPS_OFFERS) {
+        rho_score_remove_row(tracker, row);
+    }
+}
+
 int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -55,13 +67,7 @@ int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_m
             rho_track_free_hypotheses(track, &step->look.model);
             return 0;
         }
-        rho_life_end(step, &tracker->tracks[lowest]);
-        tracker->num_tracks--;
-        memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
-                (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
-        if (RHO_KEEPS_OFFERS) {
-            rho_score_remove_row(tracker, lowest);
-        }
+        rho_step_end_track(step, lowest);
     }
     if (RHO_MAX_ECHOES > 0) {
         rho_echoes_store_start(track);
