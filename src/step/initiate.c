@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* initiate: tracks start from the plots that no track claimed. */
+/* initiate: tracks start from plots that no track claimed, or that a weak one claimed. */
 #include "phases.h"
 #include "policy.h"
 

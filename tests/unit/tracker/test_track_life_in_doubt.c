@@ -4,6 +4,8 @@
  * yet ended, and how they are reported. Starts that share their newest plot. The mean time of
  * straight flight (steady_s).
  */
+#include <stdio.h>
+
 #include "life_chain.h"
 #include "tracker_setup.h"
 
@@ -370,6 +372,57 @@ static void tracks_never_confirmed_are_not_reported_as_ended(void **state)
 }
 
 /*
+ * A weak track stands where a target appears, and takes its first plots. They start a better one
+ * all the same: confirmed as soon as without the weak track, which ends.
+ */
+static void a_weak_track_keeps_no_target_from_starting(void **state)
+{
+    unsigned scans[2] = {0, 0};
+    (void)state;
+    for (int run = 0; run < 40; run++) {
+        const int is_weak_there = run % 2;
+        int is_confirmed = 0;
+        begin_tracker_by_rate(1 + (uint64_t)run / 2);
+        for (int k = 0; k < 40 && !is_confirmed; k++) {
+            for (int i = 0; i < 30; i++) {
+                const double x_m = uniform(-5e3, 2e4);
+                add_plot(x_m, uniform(-1e4, 1e4), 10.0);
+            }
+            if (k >= 20) {
+                add_noisy_plot(300.0 * (k - 20), 0.0, 10.0);
+            }
+            step_at(SCAN_S * k);
+            for (unsigned i = 0; i < report.num_tracks && k >= 20; i++) {
+                const struct rho_track_report *track = &report.tracks[i];
+                is_confirmed |= track->status == RHO_TRACK_CONFIRMED &&
+                                hypot((double)track->state[0] - 300.0 * (k - 20),
+                                      (double)track->state[1]) < 50.0;
+            }
+            scans[is_weak_there] += k >= 20;
+            if (k == 19 && is_weak_there) { /* it flies up at 150 m/s, and was never seen so */
+                struct rho_track_plot seen[3];
+                for (int i = 0; i < 3; i++) {
+                    seen[i] = (struct rho_track_plot){
+                        .time_us = report.time_us - (int64_t)(2 - i) * 2000000,
+                        .sensor_id = 1,
+                        .row = -1,
+                        .plot = {.y_m = 300.0f * (float)(i - 3) + 100.0f,
+                                 .sigma_range_m = 10.0f,
+                                 .sigma_cross_m = 10.0f}};
+                }
+                assert_int_equal(rho_tracker_start_track(&tracker, seen, 3,
+                                                         tracker.confirm_mnat - 9000, &report),
+                                 RHO_OK);
+            }
+        }
+        assert_true(is_confirmed);
+    }
+    printf("scans until confirmed: %.1f, beside a weak track %.1f\n", scans[0] / 20.0,
+           scans[1] / 20.0);
+    assert_true(scans[1] < scans[0] + 8);
+}
+
+/*
  * Where a sensor sees half of its targets, misses are common: each halves the odds that a target is
  * still there, where it would leave a tenth of them at a sensor that sees nine in ten.
  */
@@ -652,6 +705,7 @@ int main(void)
         cmocka_unit_test(a_track_in_doubt_comes_back_with_its_identity),
         cmocka_unit_test(a_doubted_track_that_ends_is_reported_as_ended),
         cmocka_unit_test(tracks_never_confirmed_are_not_reported_as_ended),
+        cmocka_unit_test(a_weak_track_keeps_no_target_from_starting),
         cmocka_unit_test(misses_of_a_low_pd_sensor_raise_less_doubt),
         cmocka_unit_test(last_misses_are_taken_back_from_the_place),
         cmocka_unit_test(all_tracks_ended_in_a_step_are_reported),
