@@ -1707,9 +1707,7 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_list_add(
     struct rho_message_writer *writer, const struct rho_message_sensor *sensor);
 
 /*
- * track_list_t: the tracks after one step of the tracker, or a part of them. A track that was
- * confirmed and is in doubt is left out, until it is confirmed again or DELETED. Channel
- * RHO_TRACKS.
+ * track_list_t: the tracks after a step but those in doubt, or a part of them. Channel RHO_TRACKS.
  */
 
 #define RHO_MESSAGE_TRACK_LIST_CHANNEL "RHO_TRACKS"

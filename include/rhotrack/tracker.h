@@ -380,8 +380,7 @@ struct rho_track_report {
     /* gate best: probability of the manoeuvring model; else 1 with an input present, 0 without */
     float maneuver_probability;
     uint16_t num_hypotheses; /* gate best: hypotheses of the track; else 1 */
-    /* it was confirmed, and is tentative: messages and files leave it out until it is seen again */
-    uint8_t is_in_doubt;
+    uint8_t is_in_doubt;     /* tentative after it was confirmed: messages and files leave it out */
 };
 
 /* The result of one step. Tracks in the order of their identities. */

@@ -60,16 +60,6 @@ static void search_newest_scan(struct rho_tracker *tracker, const struct rho_loo
     }
 }
 
-/* Row of the track whose plot this is, or RHO_MAX_TRACKS. */
-static unsigned row_of_holder(const struct rho_tracker *tracker, unsigned plot)
-{
-    unsigned row = 0;
-    while (row < tracker->num_tracks && tracker->tracks[row].plot != (int32_t)plot) {
-        row++;
-    }
-    return row < tracker->num_tracks ? row : RHO_MAX_TRACKS;
-}
-
 static void start_from_candidates(struct step *step)
 {
     const struct rho_look *look = &step->look;
@@ -87,11 +77,14 @@ static void start_from_candidates(struct step *step)
         if (scan->marks[candidate->plot[newest]] & RHO_WINDOW_INITIATED) {
             continue;
         }
-        const unsigned plot = scan->marks[candidate->plot[newest]] & RHO_WINDOW_ROW;
-        const unsigned holder = row_of_holder(step->tracker, plot);
-        if (holder < RHO_MAX_TRACKS) {
-            if (rho_life_at_start(candidate->score_mnat, step->tracker->confirm_mnat) <=
-                rho_track_existence(&step->tracker->tracks[holder])) {
+        const int32_t plot = scan->marks[candidate->plot[newest]] & RHO_WINDOW_ROW;
+        const float exists = rho_life_at_start(candidate->score_mnat, step->tracker->confirm_mnat);
+        unsigned holder = 0;
+        while (holder < step->tracker->num_tracks && step->tracker->tracks[holder].plot != plot) {
+            holder++;
+        }
+        if (holder < step->tracker->num_tracks) {
+            if (exists <= rho_track_existence(&step->tracker->tracks[holder])) {
                 continue;
             }
             rho_step_end_track(step, holder);

@@ -23,9 +23,9 @@
 
 /*
  * Probability that a track's target exists from which on its plot starts no other track. Half:
- * tracks of clutter keep the plots of new targets. Twice, that is always: searches cost more.
+ * tracks of clutter keep the plots of new targets. Twice: searches cost more.
  */
-#define OWNS_PLOT 0.8f
+#define OWNS_PLOT 0.1f
 
 /* bearing_looks.c */
 /*

@@ -160,18 +160,13 @@ float rho_pd_in_ring(const struct rho_tracker *tracker, const struct rho_tracker
                : stated;
 }
 
-static int is_sound_place(const struct rho_pd_place *place)
-{
-    return rho_is_within(place->hits, 0.0f, 1e9f) && rho_is_within(place->looks, 0.0f, 1e9f) &&
-           rho_is_within(place->excess, -1.0f, 1e9f);
-}
-
 int rho_pd_is_sound(const struct rho_tracker_sensor *row)
 {
-    unsigned sound = 0;
+    int sound = rho_is_within(row->looks, 0.0f, 1e9f) && rho_is_within(row->hits, 0.0f, row->looks);
     for (unsigned i = 0; i < RHO_PD_PLACES; i++) {
-        sound += is_sound_place(&row->places[i]) != 0;
+        const struct rho_pd_place *at = &row->places[i];
+        sound = sound && rho_is_within(at->hits, 0.0f, 1e9f) &&
+                rho_is_within(at->looks, 0.0f, 1e9f) && rho_is_within(at->excess, -1.0f, 1e9f);
     }
-    return sound == RHO_PD_PLACES && rho_is_within(row->looks, 0.0f, 1e9f) &&
-           rho_is_within(row->hits, 0.0f, row->looks);
+    return sound;
 }

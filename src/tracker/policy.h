@@ -279,7 +279,6 @@
  * intervals. Half: two misses hide a track. Twice: targets that have gone are shown for longer.
  */
 #define LIFETIME_SCANS 200.0f
-#define VISIBLE_SCANS LIFETIME_SCANS
 /* Scans that weigh as much. Half: few tracks set the rates. Twice: they are learned in hours. */
 #define LIFE_PRIOR_SCANS (2.0f * LIFETIME_SCANS)
 /*

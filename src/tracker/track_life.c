@@ -22,8 +22,8 @@
  * with a lower P_D. Targets may leave together: tracks are spared for coast_scans_max scans.
  *
  * Rates of death and hiding are learned over half an hour: scans that established tracks lived,
- * ends, and expected returns. A track that is hidden for long is in doubt, and is kept, unlisted,
- * until it has next to no chance: a return costs nothing then, and teaches.
+ * ends, and expected returns. A track in doubt is kept, unlisted, until it has next to no chance:
+ * that costs nothing, and a return teaches.
  *
  * From the probabilities follow a track's status, once its score has confirmed it, and its end.
  * What the chain does not know stands beside it: seldom_seen.c, unseen_tracks.c, and places here.
@@ -107,7 +107,7 @@ struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker)
     const float death = (tracker->gone + LIFE_PRIOR_SCANS / LIFETIME_SCANS) / lived;
     return (struct rho_tracker_life){
         .death = death,
-        .hide = (tracker->returned + LIFE_PRIOR_SCANS / VISIBLE_SCANS) / lived,
+        .hide = (tracker->returned + LIFE_PRIOR_SCANS / LIFETIME_SCANS) / lived,
         .appear = 1.0f / (HIDDEN_SHARE * (float)tracker->config.coast_scans_max),
         .lived_scans = tracker->lived,
     };
@@ -237,6 +237,8 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             const float sum = 1.0f + track->visible * gain;
             if (look->scan && look->teaches) { /* bearings do not tell one object from another */
                 count_seen_or_missed(look, track, ratio, 1.0f - blind);
+                const float seen = ratio > 1.0f ? track->visible * (1.0f + gain) / sum : 0.0f;
+                tracker->returned += rho_life_is_established(track) ? track->appeared * seen : 0.0f;
             }
             /* a blind look spares a track for as long as it may coast; else it is rather gone */
             const float spared =
@@ -244,11 +246,6 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             track->visible *= spared + (1.0f - spared) * (1.0f + gain) / sum;
             track->visible = rho_smaller(track->visible, 1.0f); /* despite rounding */
             track->hidden *= spared + (1.0f - spared) / sum;
-            /* as far as it was the target that was seen: tracks of targets that left see clutter */
-            tracker->returned +=
-                look->scan && look->teaches && ratio > 1.0f && rho_life_is_established(track)
-                    ? track->visible * track->appeared
-                    : 0.0f;
             track->look_nat = 0.0f;
             if (!look->scan) { /* of the next look of the frame */
                 track->seen_share = seeing_share(look, track);

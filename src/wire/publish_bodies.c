@@ -5,12 +5,6 @@
 
 #define PART_BODIES RHO_MESSAGE_BODY_LIST_MAX_BODIES
 
-static int has_listed_body(const struct rho_tracker *tracker, const struct rho_report *report,
-                           unsigned track, struct rho_body *body)
-{
-    return !report->tracks[track].is_in_doubt && rho_tracker_body_of(tracker, track, body) != 0;
-}
-
 uint16_t rho_publish_num_body_parts(const struct rho_tracker *tracker,
                                     const struct rho_report *report)
 {
@@ -20,7 +14,7 @@ uint16_t rho_publish_num_body_parts(const struct rho_tracker *tracker,
         return 0;
     }
     for (unsigned i = 0; i < report->num_tracks; i++) {
-        count += has_listed_body(tracker, report, i, &body) ? 1 : 0;
+        count += !report->tracks[i].is_in_doubt && rho_tracker_body_of(tracker, i, &body) ? 1 : 0;
     }
     return (uint16_t)rho_num_parts(count, PART_BODIES);
 }
@@ -47,7 +41,8 @@ enum rho_status rho_publish_bodies(const struct rho_tracker *tracker,
     unsigned place = 0;
     for (unsigned i = 0; i < report->num_tracks && status == RHO_OK; i++) {
         const struct rho_track_report *track = &report->tracks[i];
-        if (!has_listed_body(tracker, report, i, &body) || place++ / PART_BODIES != part) {
+        if (track->is_in_doubt || !rho_tracker_body_of(tracker, i, &body) ||
+            place++ / PART_BODIES != part) {
             continue;
         }
         /* The track's position stands for the body's centre: plots of it do not tell it apart. */
