@@ -779,7 +779,8 @@ struct rho_message_status {
     /* bearings that came in; plots_in counts them, too; range 0 .. 2147483647 */
     int32_t bearings_in;
     int32_t ghosts_pruned; /* bearings whose crossings are all false; range 0 .. 2147483647 */
-    int16_t tracks_tentative; /* number of tentative tracks; range 0 .. 32767 */
+    /* number of tentative tracks, with those in doubt; range 0 .. 32767 */
+    int16_t tracks_tentative;
     int16_t tracks_confirmed; /* number of confirmed tracks; range 0 .. 32767 */
     int16_t tracks_coasting; /* number of coasting tracks; range 0 .. 32767 */
     float step_us; /* mean duration of a step since the last status, us; range 0 .. 1e12 */
@@ -1706,9 +1707,7 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_sensor_list_add(
     struct rho_message_writer *writer, const struct rho_message_sensor *sensor);
 
-/*
- * track_list_t: the tracks after a step but those in doubt, or a part of them. Channel RHO_TRACKS.
- */
+/* track_list_t: the tracks after a step but those in doubt, or a part. Channel RHO_TRACKS. */
 
 #define RHO_MESSAGE_TRACK_LIST_CHANNEL "RHO_TRACKS"
 #define RHO_MESSAGE_TRACK_LIST_FINGERPRINT UINT64_C(0x50afcc23bcd9a625)

@@ -62,7 +62,7 @@ uint16_t rho_publish_num_parts(const struct rho_report *report);
  * then ended ones with status DELETED and their identity alone.
  *   part  0 .. rho_publish_num_parts - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the
- * message's bytes. Stack: 360 bytes.
+ * message's bytes, and tracks. Stack: 360 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step,
                                                   int32_t epoch, uint16_t part, uint8_t *buffer,

@@ -26,13 +26,9 @@ static void push_scan(struct rho_tracker *tracker, const struct rho_look *look)
         sensor = *look->sensor;
         sensor.pd = look->pd;
     }
-    /* a track that clutter started, or whose target left, must not keep what a new one shows */
-    set_fate_of_tracks_plots(tracker, look, 0.0f, RHO_FATE_HELD);
-    set_fate_of_tracks_plots(tracker, look, OWNS_PLOT, RHO_FATE_CLAIMED);
     /* the push cannot fail: the step has checked the pointers and the time */
     (void)!rho_initiator_push(look->initiator, &held, look->sensor ? &sensor : 0, look->fates,
                               &tracker->counters.plots_clutter);
-    set_fate_of_tracks_plots(tracker, look, 0.0f, RHO_FATE_CLAIMED);
     if (RHO_MAX_ECHOES > 0) {
         rho_echoes_store_ratios(look);
     }
@@ -115,13 +111,20 @@ static void start_from_candidates(struct step *step)
 void rho_step_initiate(struct step *step)
 {
     const struct rho_look *look = &step->look;
+    const int searches = RHO_SEARCHES && look->initiator && look->starts;
+    /* a track that clutter started, or whose target left, must not keep what a new one shows */
+    set_fate_of_tracks_plots(step->tracker, look, 0.0f, RHO_FATE_HELD);
+    set_fate_of_tracks_plots(step->tracker, look, OWNS_PLOT, RHO_FATE_CLAIMED);
     rho_removal_of_plots(step->tracker, look, &step->work);
+    if (searches) {
+        push_scan(step->tracker, look);
+    }
+    set_fate_of_tracks_plots(step->tracker, look, 0.0f, RHO_FATE_CLAIMED);
     if (!look->starts) {
         rho_step_replace_fates(look, RHO_FATE_HELD, RHO_FATE_STALE);
         return;
     }
-    if (RHO_SEARCHES && look->initiator) {
-        push_scan(step->tracker, look);
+    if (searches) {
         search_newest_scan(step->tracker, look, &step->work);
         start_from_candidates(step);
     } else {

@@ -82,12 +82,12 @@ void rho_step_share_merged(struct rho_tracker *tracker, const struct rho_look *l
 /* split_bodies.c: a track whose body is surely two targets becomes two tracks */
 void rho_step_split_bodies(struct step *step, const struct rho_scan *scan);
 
+/* track_starts.c: ends the track of a row, and closes the gap. */
+void rho_step_end_track(struct step *step, unsigned row);
 /*
  * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room, and the
  * track has ended. Of a full tracker the tentative track that exists least ends for a likelier one.
  */
-/* Ends the track of a row, whose place others take. */
-void rho_step_end_track(struct step *step, unsigned row);
 int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat);
 /*
  * Makes *step from the newest step and its report, for changes of tracks between two steps. STATE:
