@@ -779,8 +779,7 @@ struct rho_message_status {
     /* bearings that came in; plots_in counts them, too; range 0 .. 2147483647 */
     int32_t bearings_in;
     int32_t ghosts_pruned; /* bearings whose crossings are all false; range 0 .. 2147483647 */
-    /* number of tentative tracks, with those in doubt; range 0 .. 32767 */
-    int16_t tracks_tentative;
+    int16_t tracks_tentative; /* tentative tracks, with those in doubt; range 0 .. 32767 */
     int16_t tracks_confirmed; /* number of confirmed tracks; range 0 .. 32767 */
     int16_t tracks_coasting; /* number of coasting tracks; range 0 .. 32767 */
     float step_us; /* mean duration of a step since the last status, us; range 0 .. 1e12 */
