@@ -20,7 +20,6 @@
 #define STEADY_SHARE 0.5f
 
 /* initiate.c */
-
 /*
  * Probability that a track's target exists from which on its plot starts no other track. Half:
  * tracks of clutter keep the plots of new targets. Twice: searches cost more.
