@@ -17,6 +17,9 @@ check "scenario.ini tells the assumed sigma and pd" sh -c "
     grep -qx 'pd = 0.95' '$folder/sky/scenario.ini'"
 run track sky/plots.csv --config sky/scenario.ini -o sky/tracks.csv
 check "track with its scenario.ini" exits 0
+check "tracks of aircraft that have gone have no rows" awk -F, '
+    $3 == "tentative" && was_confirmed[$2] { exit 1 }
+    { was_confirmed[$2] = $3 != "tentative" || was_confirmed[$2] }' sky/tracks.csv
 run evaluate sky/truth.csv sky/tracks.csv --json
 check "most aircraft have tracks" json stdout 'o["completeness"] > 0.85 and o["false_per_scan"] < 2'
 run simulate air-traffic -o again --seed 3 --set targets.0.flights=20 --set duration_s=500 \
