@@ -4,9 +4,11 @@
 lines and heights against closed forms and brute force, the reference's tolerances, and the
 experiment from end to end. The bounds stand four standard errors of so few runs away from the
 figures of many (the comments)."""
+import io
 import json
 import subprocess
 import unittest
+import warnings
 
 import lab_test_setup
 
@@ -17,6 +19,7 @@ from common import paper_aircraft as paper
 import papers_initiation as papers
 from parts import papers_initiation_values as known
 from parts import papers_initiation_filtered as tracks
+from parts import papers_initiation_pictures as pictures
 
 RUNS, SEED = 10, 4711
 SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "papers_initiation.py"
@@ -53,6 +56,23 @@ class Figures(unittest.TestCase):
         for method in papers.METHODS:
             self.assertGreaterEqual(self.mean("I", method, "detected"), 0.85)  # .96 to 1
             self.assertEqual(self.mean("I", method, "false peaks"), 0)
+
+    def test_a_method_without_votes_has_empty_pictures(self):
+        class Report:
+            drawn = []
+
+            def figure(self, name, figure, _text):
+                figure.savefig(io.BytesIO())
+                self.drawn.append(name)
+
+        votes_of = {"HT": np.ones((400, 500)), "NHT C": np.zeros((400, 500))}
+        situation = papers.SITUATIONS[-1]
+        for draw in (lambda *given: pictures.planes(*given[:2], np.zeros((2, 1)), *given[2:]),
+                     pictures.histograms):
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                draw(Report(), situation, 100, votes_of)
+        self.assertEqual(len(Report.drawn), 2)
 
     def test_heights_without_chance(self):
         """Seven plots and six pairs in a cell."""

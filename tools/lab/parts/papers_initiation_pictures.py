@@ -20,7 +20,7 @@ def planes(report, situation, true_lines, rho_cell_m, votes_of):
     for (method, votes), at in zip(votes_of.items(), axes.flat):
         blocks = highest(votes, BLOCKS)
         half_km = votes.shape[1] * rho_cell_m / 2e3
-        image = at.imshow(blocks / blocks.max(), GREY_BELOW_TAU, vmin=0, vmax=1, origin="lower",
+        image = at.imshow(blocks / (blocks.max() or 1), GREY_BELOW_TAU, vmin=0, vmax=1, origin="lower",
                           aspect="auto", extent=(-half_km, half_km, 0, np.pi))
         at.plot(true_lines[0] / 1e3, true_lines[1], "o", ms=9, mfc="none", color="#0072b2",
                 label="true lines")
@@ -56,8 +56,9 @@ def histograms(report, situation, rho_cell_m, votes_of):
         at = np.nonzero(blocks)
         half_km, height = votes.shape[1] * rho_cell_m / 2e3, blocks[at]
         width = 2 * half_km / blocks.shape[1], np.pi / blocks.shape[0]
-        axes.bar3d(at[1] * width[0] - half_km, at[0] * width[1], 0, *width, height, rasterized=True,
-                   color=plt.get_cmap("turbo")(height / height.max()))
+        if height.size:  # a method may find no pair of plots in any cell
+            axes.bar3d(at[1] * width[0] - half_km, at[0] * width[1], 0, *width, height,
+                       rasterized=True, color=plt.get_cmap("turbo")(height / height.max()))
         axes.set(title=f"({letter}) {method}: votes", xlabel="rho (km)",
                  ylabel="theta (rad)", xlim=(-half_km, half_km), ylim=(0, np.pi))
         axes.view_init(28, -55)
