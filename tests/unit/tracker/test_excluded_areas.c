@@ -46,6 +46,34 @@ static void tracks_pass_through_an_excluded_area(void **state)
     assert_null(only_track_within_200_m(2000.0));
 }
 
+/* A track that probably has no target leaves its plots to new ones: but not in an excluded area. */
+static void plots_of_weak_tracks_start_none_there_either(void **state)
+{
+    (void)state;
+    for (int is_excluded = 0; is_excluded < 2; is_excluded++) {
+        prepare_tracker();
+        const uint32_t id = only_track_within_200_m(2000.0)->track_id;
+        const uint32_t started = tracker.counters.tracks_started;
+        if (is_excluded) {
+            assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_OK);
+        }
+        for (int k = 0; k < 8; k++) {
+            for (unsigned i = 0; i < tracker.num_tracks; i++) {
+                struct rho_track *track = &tracker.tracks[i];
+                if (track->track_id == id) {
+                    track->was_confirmed = 0;
+                    track->status = RHO_TRACK_TENTATIVE;
+                    track->score_mnat = tracker.start_mnat;
+                    track->visible = 1e-12f;
+                    track->hidden = 0.0f;
+                }
+            }
+            run_scans(1, 1);
+        }
+        assert_int_equal(tracker.counters.tracks_started > started, !is_excluded);
+    }
+}
+
 static void bad_excluded_areas_are_refused(void **state)
 {
     struct rho_extent bad[] = {north, north, north, north};
@@ -109,6 +137,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plots_in_an_excluded_area_start_no_track),
         cmocka_unit_test(tracks_pass_through_an_excluded_area),
+        cmocka_unit_test(plots_of_weak_tracks_start_none_there_either),
         cmocka_unit_test(bad_excluded_areas_are_refused),
         cmocka_unit_test(comparisons_with_areas_are_counted_as_work),
     };
