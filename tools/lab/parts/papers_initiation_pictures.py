@@ -20,8 +20,8 @@ def planes(report, situation, true_lines, rho_cell_m, votes_of):
     for (method, votes), at in zip(votes_of.items(), axes.flat):
         blocks = highest(votes, BLOCKS)
         half_km = votes.shape[1] * rho_cell_m / 2e3
-        image = at.imshow(blocks / (blocks.max() or 1), GREY_BELOW_TAU, vmin=0, vmax=1, origin="lower",
-                          aspect="auto", extent=(-half_km, half_km, 0, np.pi))
+        image = at.imshow(blocks / (blocks.max() or 1), GREY_BELOW_TAU, vmin=0, vmax=1,
+                          origin="lower", aspect="auto", extent=(-half_km, half_km, 0, np.pi))
         at.plot(true_lines[0] / 1e3, true_lines[1], "o", ms=9, mfc="none", color="#0072b2",
                 label="true lines")
         at.set(title=f"{method}: at most {blocks.max():.3g} votes", xlabel="rho (km)",
