@@ -45,7 +45,7 @@ check 'nothing is learned where that is switched off' json stdout \
 run evaluate many/truth.csv learned.csv --json
 check 'aircraft are kept' json stdout 'o["completeness"] > 0.94 and o["switches"] < 30'
 run evaluate many/truth.csv stated.csv --json
-check 'and else lost' json stdout 'o["completeness"] < 0.92 and o["switches"] > 45'
+check 'and else lost' json stdout 'o["completeness"] < 0.92 and o["switches"] > 38'
 run simulate notch --seed 5 "${many[@]}" --set radars.0.notch_mps=0 -o none
 run track none/plots.csv --config none/scenario.ini --json -o none.csv
 check 'no notch is learned where there is none' json stdout '"notch_mps" not in o["learned"][0]'
