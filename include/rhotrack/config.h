@@ -309,7 +309,7 @@
 
 /* Passive sensors, 2 .. 8; frames in a batch, 4 .. 16. RAM: 17 bytes a bearing, sensor, frame. */
 #ifndef RHO_MAX_PASSIVE_SENSORS
-#define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 4)
+#define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 8)
 #endif
 #ifndef RHO_MAX_PASSIVE_SCANS
 #define RHO_MAX_PASSIVE_SCANS RHO_CONFIG_PICK(8, 16)

@@ -80,6 +80,7 @@ struct rho_frames_sensor {
 struct rho_frames_scan {
     int64_t time_us;
     float sector_from_rad, sector_to_rad;
+    float x_m, y_m;  /* place of the sensor */
     uint16_t sensor; /* index of the scan's sensor in sensors[] */
     uint16_t num_bearings;
     struct rho_bearing bearings[RHO_MAX_BEARINGS];
@@ -139,8 +140,7 @@ RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t
  *   scan  must not be of this object's own frames; its bearings are not checked here, but by the
  *         user of the frame
  * Errors: NULL, STATE (not initialised), VALUE (a time beyond RHO_LIMIT_TIME_US, a sector beyond
- * one turn either way, a position of the sensor that is no coordinate, has changed, or is nearer
- * than 1 m to another sensor), CAPACITY (more sensors than RHO_MAX_PASSIVE_SENSORS); nothing is
+ * one turn either way, a position of the sensor that is no coordinate), CAPACITY (more sensors than RHO_MAX_PASSIVE_SENSORS); nothing is
  * changed, and the frame closed before stays. Late scans and scans off the clock are RHO_OK. Cost:
  * the bearings copied, a slot cleared. Stack: 200 bytes.
  */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive: track initiation from bearings of two to RHO_MAX_PASSIVE_SENSORS sensors that stand
- * still.
+ * passive: track initiation from bearings of two to RHO_MAX_PASSIVE_SENSORS sensors, which may move
+ * and look at times of their own. Sensors at one place support each other and do not cross.
  *
  * Every pair of bearings of two sensors crosses somewhere, at a target or at a ghost. A batch of
  * scans is searched in five steps:
@@ -89,12 +89,16 @@ struct rho_passive_work {
     uint32_t candidates_dropped; /* candidates beyond RHO_MAX_PASSIVE_CANDIDATES */
 };
 
-/* A crossing that was not pruned, with covariance, relative to the sensors' centroid. */
+/*
+ * A crossing that was not pruned, with covariance, relative to the looks' centroid. Of two times,
+ * it is where the bearings' rays meet, with the way of a target between them as an error.
+ */
 struct rho_passive_point {
     float x_m, y_m;
     float xx_m2, xy_m2, yy_m2;
-    uint16_t scan;
-    uint16_t reserved; /* always 0 */
+    uint8_t scan;
+    uint8_t sensors;    /* those of its bearings: 8 a + b */
+    uint8_t bearing[2]; /* indices of its bearings in their looks */
 };
 
 /* A pair of crossings that was fitted, as indices in points[]. */

@@ -22,10 +22,10 @@ struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passiv
                                                          unsigned scan, unsigned sensor,
                                                          const float state_m[N])
 {
-    float step = search->step[scan];
+    const struct rho_passive_look *look = &search->at[scan][sensor];
     return (struct rho_passive_offset){
-        .x_m = state_m[RHO_PASSIVE_X] + step * state_m[RHO_PASSIVE_DX] - search->x_m[sensor],
-        .y_m = state_m[RHO_PASSIVE_Y] + step * state_m[RHO_PASSIVE_DY] - search->y_m[sensor]};
+        .x_m = state_m[RHO_PASSIVE_X] + look->step * state_m[RHO_PASSIVE_DX] - look->x_m,
+        .y_m = state_m[RHO_PASSIVE_Y] + look->step * state_m[RHO_PASSIVE_DY] - look->y_m};
 }
 
 static float squared_range_m2(struct rho_passive_offset offset)

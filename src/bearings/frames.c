@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "rhotrack/detail/angle.h"
-#include "rhotrack/detail/bearing_crossing.h"
 
 enum { FRAMES_MAGIC = 0x46524d53 }; /* "FRMS" in ASCII */
 
@@ -62,11 +61,14 @@ static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
 static unsigned hear_sensor(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     unsigned i = find_sensor(frames, scan->sensor_id);
+    struct rho_frames_sensor *sensor = &frames->sensors[i];
     if (i == frames->num_sensors) {
-        frames->sensors[frames->num_sensors++] = (struct rho_frames_sensor){
-            .sensor_id = scan->sensor_id, .x_m = scan->x_m, .y_m = scan->y_m};
+        frames->num_sensors++;
+        sensor->sensor_id = scan->sensor_id;
     }
-    frames->sensors[i].silent = 0;
+    sensor->x_m = scan->x_m;
+    sensor->y_m = scan->y_m;
+    sensor->silent = 0;
     return i;
 }
 
@@ -80,17 +82,6 @@ static enum rho_status check_scan(const struct rho_frames *frames,
         !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
         !rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return RHO_ERROR_VALUE;
-    }
-    /* a known sensor must not have moved; bearings of nearer sensors than this do not cross */
-    for (unsigned i = 0; i < frames->num_sensors; i++) {
-        const struct rho_frames_sensor *sensor = &frames->sensors[i];
-        float dx_m = scan->x_m - sensor->x_m, dy_m = scan->y_m - sensor->y_m;
-        float apart2_m2 = dx_m * dx_m + dy_m * dy_m;
-        if (sensor->sensor_id == scan->sensor_id
-                ? apart2_m2 > 0.0f
-                : apart2_m2 < RHO_CROSSING_BASE_MIN_M * RHO_CROSSING_BASE_MIN_M) {
-            return RHO_ERROR_VALUE;
-        }
     }
     return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
                                                                           : RHO_ERROR_CAPACITY;
@@ -141,6 +132,8 @@ static void frame_add_scan(struct rho_frames *frames, const struct rho_bearing_s
     int is_first = slot->num_scans == 0;
     struct rho_frames_scan *to = &slot->scans[slot->num_scans++];
     uint32_t count = scan->num_bearings < RHO_MAX_BEARINGS ? scan->num_bearings : RHO_MAX_BEARINGS;
+    to->x_m = scan->x_m;
+    to->y_m = scan->y_m;
     to->sensor = (uint16_t)hear_sensor(frames, scan);
     to->time_us = scan->time_us;
     to->sector_from_rad = scan->sector_from_rad;
@@ -249,8 +242,8 @@ int rho_frames_closed(const struct rho_frames *frames, struct rho_frame_view *vi
         }
         view->scans[place] = (struct rho_bearing_scan){.time_us = from->time_us,
                                                        .sensor_id = sensor->sensor_id,
-                                                       .x_m = sensor->x_m,
-                                                       .y_m = sensor->y_m,
+                                                       .x_m = from->x_m,
+                                                       .y_m = from->y_m,
                                                        .sector_from_rad = from->sector_from_rad,
                                                        .sector_to_rad = from->sector_to_rad,
                                                        .num_bearings = from->num_bearings,

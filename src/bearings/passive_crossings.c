@@ -32,12 +32,19 @@ static unsigned collect_bearings(const struct rho_passive_search *search, unsign
     return count;
 }
 
+/* Sigma of a target's way in this time. */
+static float sigma_of_way_m(const struct rho_passive_search *search, float steps)
+{
+    return 0.5f * search->passive->config.v_max_mps * search->half_s * rho_magnitude(steps);
+}
+
 /* Whether a sensor has a bearing towards the crossing, within the errors of both. */
 static int has_bearing_towards(const struct rho_passive_search *search, unsigned sensor,
                                const struct rho_passive_point *point)
 {
     const struct rho_passive *passive = search->passive;
-    float dx_m = point->x_m - search->x_m[sensor], dy_m = point->y_m - search->y_m[sensor];
+    const struct rho_passive_look *at = &search->at[point->scan][sensor];
+    float dx_m = point->x_m - at->x_m, dy_m = point->y_m - at->y_m;
     float range2 = dx_m * dx_m + dy_m * dy_m;
     if (!(range2 > 1.0f)) {
         return 0;
@@ -45,10 +52,12 @@ static int has_bearing_towards(const struct rho_passive_search *search, unsigned
     /* variance of the crossing across the line of sight, times the squared range */
     float across =
         point->xx_m2 * dy_m * dy_m - 2.0f * point->xy_m2 * dx_m * dy_m + point->yy_m2 * dx_m * dx_m;
+    const float way_m = sigma_of_way_m(search, at->step - rho_passive_crossing_step(search, point));
     for (unsigned i = 0; i < passive->batch.num_bearings[point->scan][sensor]; i++) {
         const struct rho_batch_bearing *seen = &passive->batch.bearings[point->scan][sensor][i];
         float off_m = seen->cosine * dy_m - seen->sine * dx_m;
-        float variance_m2 = across / range2 + seen->sigma_rad * seen->sigma_rad * range2;
+        float variance_m2 =
+            across / range2 + seen->sigma_rad * seen->sigma_rad * range2 + way_m * way_m;
         if (seen->cosine * dx_m + seen->sine * dy_m > 0.0f &&
             off_m * off_m < SUPPORT_SIGMAS * SUPPORT_SIGMAS * variance_m2) {
             return 1;
@@ -58,8 +67,8 @@ static int has_bearing_towards(const struct rho_passive_search *search, unsigned
 }
 
 /*
- * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and
- * at least one, must have a bearing towards the crossing.
+ * In the first pass, with three sensors or more: all but one of the sensors besides the pair that
+ * looked, and at least one, must have a bearing towards the crossing.
  */
 static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
                         const struct rho_passive_point *point)
@@ -103,15 +112,24 @@ static void store_crossing(struct rho_passive_search *search, const struct rho_p
     }
 }
 
+/* A bearing's sigma at a crossing, with the way of the target between the two looks. */
+static float sigma_with_way_rad(float sigma_rad, float way_m, float range_m)
+{
+    const float way_rad = way_m / rho_larger(range_m, way_m);
+    return rho_sqrt(sigma_rad * sigma_rad + way_rad * way_rad);
+}
+
 /* Crosses two sensors' bearings in one scan, and stores crossings that have support. */
 static void cross_pair_in_scan(struct rho_passive_search *search, const struct sensor_pair *pair,
                                const struct rho_crossing_base *base)
 {
     struct rho_passive *passive = search->passive;
     struct rho_ghost_matrix matrix;
+    const float steps = search->at[pair->scan][pair->a].step - search->at[pair->scan][pair->b].step;
+    const float way_m = 0.5f * sigma_of_way_m(search, steps);
     if (rho_ghost_fill(&matrix, base, pair->bearings_a_rad, pair->num_a, pair->bearings_b_rad,
                        pair->num_b, passive->config.range_max_m) != RHO_OK) {
-        return; /* cannot fail: sensor positions were checked when the frame was pushed */
+        return; /* cannot fail: bearings were checked when they were pushed */
     }
     rho_ghost_prune(&matrix, passive->config.rule);
     for (unsigned i = 0; i < pair->num_a; i++) {
@@ -132,15 +150,22 @@ static void cross_pair_in_scan(struct rho_passive_search *search, const struct s
                                   &crossing) != RHO_CROSSING_MEETS) {
                 continue;
             }
-            rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad, a->sigma_rad,
-                                    b->sigma_rad, covariance_m2);
+            rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad,
+                                    sigma_with_way_rad(a->sigma_rad, way_m, crossing.range_a_m),
+                                    sigma_with_way_rad(b->sigma_rad, way_m, crossing.range_b_m),
+                                    covariance_m2);
             struct rho_passive_point point = {.x_m = crossing.x_m,
                                               .y_m = crossing.y_m,
                                               .xx_m2 = covariance_m2[0],
                                               .xy_m2 = covariance_m2[1],
                                               .yy_m2 = covariance_m2[2],
-                                              .scan = (uint16_t)pair->scan};
-            if (is_supported(search, pair, &point)) {
+                                              .scan = (uint8_t)pair->scan,
+                                              .sensors = (uint8_t)(8u * pair->a + pair->b),
+                                              .bearing = {pair->index_a[i], pair->index_b[j]}};
+            const float tells_m =
+                RANGE_SHARE * rho_larger(crossing.range_a_m, crossing.range_b_m);
+            if (rho_passive_uncertainty_m2(&point) < tells_m * tells_m &&
+                is_supported(search, pair, &point)) {
                 store_crossing(search, &point);
             }
         }
@@ -149,16 +174,16 @@ static void cross_pair_in_scan(struct rho_passive_search *search, const struct s
 
 static void cross_pair(struct rho_passive_search *search, unsigned a, unsigned b)
 {
-    struct rho_crossing_base base;
-    if (rho_crossing_set_base(&base, search->x_m[a], search->y_m[a], search->x_m[b],
-                              search->y_m[b]) != RHO_OK) {
-        return; /* cannot fail: sensor positions were checked when the frame was pushed */
-    }
     for (unsigned scan = 0; scan < search->passive->batch.num_scans; scan++) {
+        const struct rho_passive_look *at = search->at[scan];
         struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
+        struct rho_crossing_base base;
         pair.num_a = collect_bearings(search, scan, a, pair.bearings_a_rad, pair.index_a);
         pair.num_b = collect_bearings(search, scan, b, pair.bearings_b_rad, pair.index_b);
-        cross_pair_in_scan(search, &pair, &base);
+        /* sensors at one place have no base */
+        if (rho_crossing_set_base(&base, at[a].x_m, at[a].y_m, at[b].x_m, at[b].y_m) == RHO_OK) {
+            cross_pair_in_scan(search, &pair, &base);
+        }
     }
 }
 

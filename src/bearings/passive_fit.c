@@ -20,13 +20,11 @@ struct equations {
 };
 
 /* Adds the linear equation of a bearing, row . change = residual, to the normal equations. */
-static void add_bearing_equation(const struct rho_passive_search *search, unsigned scan,
-                                 const struct rho_passive_match *nearest,
+static void add_bearing_equation(float step, const struct rho_passive_match *nearest,
                                  struct equations *equations)
 {
     /* derivative of the bearing by the position, rad per metre */
     float range2_m2 = rho_square(nearest->offset.x_m) + rho_square(nearest->offset.y_m);
-    float step = search->step[scan];
     float row_x = -nearest->offset.y_m / range2_m2, row_y = nearest->offset.x_m / range2_m2;
     const float row[N] = {row_x, row_y, step * row_x, step * row_y};
     float weight = 1.0f / (rho_square(nearest->sigma_rad) + rho_square(EXACT_M) / range2_m2);
@@ -66,7 +64,7 @@ static struct equations equations_of_bearings(const struct rho_passive_search *s
                     ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
                     : rho_passive_match_nearest(search, k, s, state_m, fitted == FIT_ALL);
             if (nearest.bearing >= 0 && (fitted == FIT_CLAIMED || is_in_gate(&nearest, gate))) {
-                add_bearing_equation(search, k, &nearest, &equations);
+                add_bearing_equation(search->at[k][s].step, &nearest, &equations);
             }
         }
     }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_prepare: values computed once before a search: positions of the sensors, times of the
- * scans, log-likelihood ratios of a hit and a miss, and the score that a track must reach.
+ * passive_prepare: values computed once before a search: places and times of the looks, log-likelihood ratios of a hit and a miss, and the score that a track must reach.
  */
 #include "passive_search.h"
 #include "policy.h"
@@ -12,22 +11,27 @@ void rho_passive_prepare(struct rho_passive_search *search)
 {
     const struct rho_batch *batch = &search->passive->batch;
     const struct rho_passive_config *config = &search->passive->config;
-    float n = (float)batch->num_sensors;
-    for (unsigned s = 0; s < batch->num_sensors; s++) {
-        search->middle_x_m += batch->sensors[s].x_m / n;
-        search->middle_y_m += batch->sensors[s].y_m / n;
-    }
-    for (unsigned s = 0; s < batch->num_sensors; s++) {
-        search->x_m[s] = batch->sensors[s].x_m - search->middle_x_m;
-        search->y_m[s] = batch->sensors[s].y_m - search->middle_y_m;
-    }
-    int64_t first_us = batch->time_us[0], last_us = batch->time_us[batch->num_scans - 1];
-    search->half_s = 0.5f * rho_seconds_between(first_us, last_us);
-    float total = 0.0f, log_sigmas = 0.0f;
+    float total = 0.0f, log_sigmas = 0.0f, x_m = 0.0f, y_m = 0.0f;
     for (unsigned k = 0; k < batch->num_scans; k++) {
-        search->step[k] = rho_seconds_between(first_us, batch->time_us[k]) / search->half_s - 1.0f;
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             search->looks += batch->was_seen[k][s];
+            x_m += batch->looks[k][s].x_m;
+            y_m += batch->looks[k][s].y_m;
+        }
+    }
+    const float looks = rho_larger((float)search->looks, 1.0f);
+    search->middle_x_m = x_m / looks;
+    search->middle_y_m = y_m / looks;
+    int64_t first_us = batch->time_us[0];
+    search->half_s = 0.5f * rho_seconds_between(first_us, batch->newest_us);
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            const struct rho_batch_look *look = &batch->looks[k][s];
+            const int64_t time_us = batch->time_us[k] + look->offset_us;
+            search->at[k][s] = (struct rho_passive_look){
+                .step = rho_seconds_between(first_us, time_us) / search->half_s - 1.0f,
+                .x_m = look->x_m - search->middle_x_m,
+                .y_m = look->y_m - search->middle_y_m};
             total += (float)batch->num_bearings[k][s];
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
                 float sigma_rad = batch->bearings[k][s][i].sigma_rad;
@@ -38,7 +42,6 @@ void rho_passive_prepare(struct rho_passive_search *search)
         }
     }
     /* false bearings are uniform in the field of view, with the density of all bearings */
-    float looks = search->looks > 0 ? (float)search->looks : 1.0f;
     float density = total / looks / config->field_of_view_rad;
     density = density > DENSITY_MIN_PER_RAD ? density : DENSITY_MIN_PER_RAD;
     search->hit_nat = rho_log(config->pd / (density * 2.50662827f /* sqrt(2 pi) */));

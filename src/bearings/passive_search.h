@@ -24,18 +24,21 @@
 
 /*
  * A state is the position at mid-batch (x, y) and the displacement in half the batch (dx, dy), all
- * in metres, from the sensors' centroid: the position at scan k is (x, y) + step[k] (dx, dy).
+ * in metres, from the looks' centroid: the position at a look is (x, y) + step (dx, dy).
  */
 enum { RHO_PASSIVE_X, RHO_PASSIVE_Y, RHO_PASSIVE_DX, RHO_PASSIVE_DY, RHO_PASSIVE_STATES };
 
-/* Values computed once for a search. Positions are relative to the sensors' centroid. */
+/* Time of a look, from -1 for the first row's to 1 for the newest frame's, and its place. */
+struct rho_passive_look {
+    float step, x_m, y_m;
+};
+
+/* Values computed once for a search. Positions are relative to the looks' centroid. */
 struct rho_passive_search {
     struct rho_passive *passive;
-    float middle_x_m, middle_y_m; /* the sensors' centroid */
-    float x_m[RHO_MAX_PASSIVE_SENSORS], y_m[RHO_MAX_PASSIVE_SENSORS];
-    float half_s; /* half the time from the first scan to the last */
-    /* time of each scan, from -1 for the first to 1 for the last */
-    float step[RHO_MAX_PASSIVE_SCANS];
+    float middle_x_m, middle_y_m; /* centroid of the places of all looks */
+    float half_s;                 /* half the time from the first row to the newest frame */
+    struct rho_passive_look at[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     float hit_nat; /* score of a bearing with residual 0 and a sigma of 1 rad */
     /* score of a look in which the track's position was in view but got no bearing */
     float miss_nat;
@@ -59,6 +62,14 @@ void rho_passive_prepare(struct rho_passive_search *search);
 void rho_passive_set_start_score(const struct rho_passive_search *search);
 /* Crosses the bearings of all pairs of sensors, scan by scan, into passive->points. */
 void rho_passive_find_crossings(struct rho_passive_search *search);
+/* Time of a crossing: the middle of its looks. */
+static inline float rho_passive_crossing_step(const struct rho_passive_search *search,
+                                              const struct rho_passive_point *point)
+{
+    const struct rho_passive_look *at = search->at[point->scan];
+    return 0.5f * (at[point->sensors / 8u].step + at[point->sensors % 8u].step);
+}
+
 /* Uncertainty of a crossing: the trace of its covariance. */
 static inline float rho_passive_uncertainty_m2(const struct rho_passive_point *point)
 {
@@ -87,12 +98,19 @@ struct rho_passive_line {
 int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
                                struct rho_passive_line *line);
 /*
+ * The constant-velocity state through two crossings, a the older. Returns 0 where it is too fast.
+ */
+int rho_passive_connect_crossings(const struct rho_passive_search *search,
+                                  const struct rho_passive_point *a,
+                                  const struct rho_passive_point *b,
+                                  float state_m[RHO_PASSIVE_STATES]);
+/*
  * Tries constant velocities through pairs of crossings on the line: those that agree best with the
  * bearings are fitted and offered as candidates.
  */
 void rho_passive_fit_line_pairs(struct rho_passive_search *search,
                                 const struct rho_passive_line *line);
-/* Vector from a sensor to the position of a state at the time of a scan. */
+/* Vector from a sensor to the position of a state at the time of its look. */
 struct rho_passive_offset {
     float x_m, y_m;
 };

@@ -21,6 +21,14 @@
  */
 #define BEST_TRIED 12u
 
+/* recent_bearing_frames.c */
+
+/*
+ * Age in intervals at which a row waits for no sensor more. Half: sensors that look in turn fall
+ * into rows of two halves. Twice: a missed look is waited for, and the sensor's next one joins.
+ */
+#define ROW_INTERVALS 0.9f
+
 /* passive.c */
 
 /*
@@ -69,6 +77,12 @@
  * has no support. Twice: ghosts find support by chance.
  */
 #define SUPPORT_SIGMAS 3.0f
+
+/*
+ * Largest uncertainty of a place, in its range: beyond it two bearings tell no range. Half: what is
+ * far from a short base is not found. Twice: sensors side by side cross anywhere.
+ */
+#define RANGE_SHARE 0.4f
 
 /* passive_fit.c */
 

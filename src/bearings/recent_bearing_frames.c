@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
@@ -40,34 +41,27 @@ static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
     return i;
 }
 
-static int is_distance_usable(const struct rho_batch *batch, float distance_m)
-{
-    return rho_is_within(distance_m, RHO_CROSSING_BASE_MIN_M, batch->apart_max_m);
-}
-
-/*
- * A known sensor must not have moved, a new one must make usable baselines with every known one and
- * with those of earlier scans of the frame, and no sensor may be in a frame twice.
- */
+/* A sensor must be near enough to the others, and in a frame once. */
 static int is_sensor_usable(const struct rho_batch *batch, const struct rho_frame *frame,
                             uint32_t scan_number)
 {
     const struct rho_bearing_scan *scan = &frame->scans[scan_number];
-    unsigned known = find_sensor(batch, scan->sensor_id);
-    if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
+    int64_t offset_us = scan->time_us - frame->time_us;
+    if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
+        offset_us > RHO_LIMIT_OFFSET_US || offset_us < -RHO_LIMIT_OFFSET_US) {
         return 0;
     }
     for (unsigned i = 0; i < batch->num_sensors; i++) {
-        float apart_m =
-            distance_m(scan->x_m, scan->y_m, batch->sensors[i].x_m, batch->sensors[i].y_m);
-        if (i == known ? apart_m > 0.0f : !is_distance_usable(batch, apart_m)) {
+        const struct rho_batch_sensor *other = &batch->sensors[i];
+        if (scan->sensor_id != other->sensor_id &&
+            !(distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m) <= batch->apart_max_m)) {
             return 0;
         }
     }
     for (uint32_t i = 0; i < scan_number; i++) {
         const struct rho_bearing_scan *other = &frame->scans[i];
         if (other->sensor_id == scan->sensor_id ||
-            !is_distance_usable(batch, distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m))) {
+            !(distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m) <= batch->apart_max_m)) {
             return 0;
         }
     }
@@ -79,7 +73,7 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
     if (!batch || !frame || (frame->num_scans > 0 && !frame->scans)) {
         return RHO_ERROR_NULL;
     }
-    if (batch->num_scans > 0 && frame->time_us <= batch->time_us[batch->num_scans - 1]) {
+    if (batch->num_scans > 0 && frame->time_us <= batch->newest_us) {
         return RHO_ERROR_STATE;
     }
     unsigned num_sensors = batch->num_sensors;
@@ -100,14 +94,69 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
     return RHO_OK;
 }
 
+/* Longest time between the two newest looks of a sensor; 0: none has looked twice. */
+static int64_t longest_interval_us(const struct rho_batch *batch)
+{
+    int64_t longest_us = 0;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        int64_t newer_us = INT64_MAX;
+        for (unsigned k = batch->num_scans; k-- > 0;) {
+            if (!batch->was_seen[k][s]) {
+                continue;
+            }
+            const int64_t time_us = batch->time_us[k] + batch->looks[k][s].offset_us;
+            if (newer_us != INT64_MAX) {
+                longest_us = newer_us - time_us > longest_us ? newer_us - time_us : longest_us;
+                break;
+            }
+            newer_us = time_us;
+        }
+    }
+    return longest_us;
+}
+
+static int has_looks_of_all(const struct rho_batch *batch, unsigned scan)
+{
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        if (!batch->was_seen[scan][s]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/*
+ * Whether a frame goes into the newest row: that lacks its sensors, or others, and is younger than
+ * the longest interval of a sensor, so that a dead one keeps no row open.
+ */
+static int joins_newest_row(const struct rho_batch *batch, const struct rho_frame *frame)
+{
+    const unsigned newest = batch->num_scans - 1u;
+    if (batch->num_scans == 0) {
+        return 0;
+    }
+    int is_lacking = 1;
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        const unsigned s = find_sensor(batch, frame->scans[i].sensor_id);
+        is_lacking &= s == batch->num_sensors || !batch->was_seen[newest][s];
+    }
+    const int64_t age_us = frame->time_us - batch->time_us[newest];
+    const int64_t interval_us = longest_interval_us(batch);
+    return age_us < RHO_LIMIT_OFFSET_US &&
+           (interval_us == 0 || (float)age_us < ROW_INTERVALS * (float)interval_us) &&
+           (is_lacking || !has_looks_of_all(batch, newest));
+}
+
 /* Stores a scan, and those of its bearings with fate HELD; others it refuses get their fate. */
 static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *scan, uint8_t *fates)
 {
-    unsigned k = batch->num_scans, s = find_sensor(batch, scan->sensor_id);
-    if (s == batch->num_sensors) {
-        batch->sensors[batch->num_sensors++] = (struct rho_batch_sensor){
-            .sensor_id = scan->sensor_id, .x_m = scan->x_m, .y_m = scan->y_m};
-    }
+    const unsigned k = batch->num_scans - 1u, s = find_sensor(batch, scan->sensor_id);
+    batch->num_sensors = (uint16_t)(batch->num_sensors + (s == batch->num_sensors));
+    batch->sensors[s] = (struct rho_batch_sensor){scan->sensor_id, scan->x_m, scan->y_m};
+    batch->looks[k][s] = (struct rho_batch_look){(int32_t)(scan->time_us - batch->time_us[k]),
+                                                 scan->x_m, scan->y_m};
+    batch->num_left += batch->num_bearings[k][s];
+    batch->num_bearings[k][s] = 0;
     batch->was_seen[k][s] = 1;
     batch->sector_from_rad[k][s] = scan->sector_from_rad;
     batch->sector_to_rad[k][s] = scan->sector_to_rad;
@@ -131,6 +180,32 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
     }
 }
 
+/* Begins a row at this time; a full batch drops its oldest. */
+static void begin_row(struct rho_batch *batch, int64_t time_us)
+{
+    if (batch->num_scans == batch->scans_max) {
+        size_t left = (size_t)batch->num_scans - 1u;
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            batch->num_left += batch->num_bearings[0][s];
+        }
+        memmove(batch->time_us, batch->time_us + 1, left * sizeof batch->time_us[0]);
+        memmove(batch->looks, batch->looks + 1, left * sizeof batch->looks[0]);
+        memmove(batch->num_bearings, batch->num_bearings + 1, left * sizeof batch->num_bearings[0]);
+        memmove(batch->was_seen, batch->was_seen + 1, left * sizeof batch->was_seen[0]);
+        memmove(batch->sector_from_rad, batch->sector_from_rad + 1,
+                left * sizeof batch->sector_from_rad[0]);
+        memmove(batch->sector_to_rad, batch->sector_to_rad + 1,
+                left * sizeof batch->sector_to_rad[0]);
+        memmove(batch->bearings, batch->bearings + 1, left * sizeof batch->bearings[0]);
+        batch->num_scans--;
+    }
+    unsigned k = batch->num_scans++;
+    batch->time_us[k] = time_us;
+    memset(batch->looks[k], 0, sizeof batch->looks[k]);
+    memset(batch->num_bearings[k], 0, sizeof batch->num_bearings[k]);
+    memset(batch->was_seen[k], 0, sizeof batch->was_seen[k]);
+}
+
 enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *frame,
                                uint8_t *fates)
 {
@@ -143,30 +218,18 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     }
     rho_batch_compact(batch);
     batch->num_left = 0;
-    if (batch->num_scans == batch->scans_max) {
-        size_t left = (size_t)batch->num_scans - 1u;
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            batch->num_left += batch->num_bearings[0][s];
-        }
-        memmove(batch->time_us, batch->time_us + 1, left * sizeof batch->time_us[0]);
-        memmove(batch->num_bearings, batch->num_bearings + 1, left * sizeof batch->num_bearings[0]);
-        memmove(batch->was_seen, batch->was_seen + 1, left * sizeof batch->was_seen[0]);
-        memmove(batch->sector_from_rad, batch->sector_from_rad + 1,
-                left * sizeof batch->sector_from_rad[0]);
-        memmove(batch->sector_to_rad, batch->sector_to_rad + 1,
-                left * sizeof batch->sector_to_rad[0]);
-        memmove(batch->bearings, batch->bearings + 1, left * sizeof batch->bearings[0]);
-        batch->num_scans--;
+    const int joins = joins_newest_row(batch, frame);
+    batch->is_due = !joins && batch->num_scans > 0 && !batch->is_whole;
+    if (!joins) {
+        begin_row(batch, frame->time_us);
     }
-    unsigned k = batch->num_scans;
-    batch->time_us[k] = frame->time_us;
-    memset(batch->num_bearings[k], 0, sizeof batch->num_bearings[k]);
-    memset(batch->was_seen[k], 0, sizeof batch->was_seen[k]);
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         store_scan(batch, &frame->scans[i], fates);
         fates += frame->scans[i].num_bearings;
     }
-    batch->num_scans++;
+    batch->newest_us = frame->time_us;
+    batch->is_whole = frame->num_scans > 1 || has_looks_of_all(batch, batch->num_scans - 1u);
+    batch->is_due |= batch->is_whole;
     return RHO_OK;
 }
 
@@ -206,7 +269,9 @@ void rho_batch_compact(struct rho_batch *batch)
 
 static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned sensor)
 {
+    const struct rho_batch_look *look = &batch->looks[scan][sensor];
     if (batch->num_bearings[scan][sensor] > RHO_MAX_BEARINGS || batch->was_seen[scan][sensor] > 1 ||
+        !rho_is_coordinate(look->x_m) || !rho_is_coordinate(look->y_m) ||
         !rho_angle_is_valid_sector(batch->sector_from_rad[scan][sensor],
                                    batch->sector_to_rad[scan][sensor])) {
         return 0;
@@ -237,12 +302,6 @@ int rho_batch_is_sound(const struct rho_batch *batch)
         const struct rho_batch_sensor *sensor = &batch->sensors[i];
         if (!rho_is_coordinate(sensor->x_m) || !rho_is_coordinate(sensor->y_m)) {
             return 0;
-        }
-        for (unsigned k = 0; k < i; k++) {
-            if (!is_distance_usable(batch, distance_m(batch->sensors[k].x_m, batch->sensors[k].y_m,
-                                                      sensor->x_m, sensor->y_m))) {
-                return 0;
-            }
         }
     }
     for (unsigned k = 0; k < batch->num_scans; k++) {

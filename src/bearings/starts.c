@@ -45,15 +45,41 @@ static unsigned collect_crossings(const struct rho_passive_search *search,
     return count;
 }
 
-/* The constant-velocity state through two crossings. Returns 0 where its speed is too high. */
-static int connect_crossings(const struct rho_passive_search *search, struct pair pair,
-                             float state_m[RHO_PASSIVE_STATES])
+/*
+ * The 2 x 2 matrix that takes a target's displacement to how far from its middle place the rays of
+ * bearings of two times meet: R^-1 diag(step) R, with the rows of R across the rays, and the middle
+ * step times the unit matrix where the times are one.
+ */
+static void crossing_times(const struct rho_passive_search *search,
+                           const struct rho_passive_point *point, float times[2][2])
 {
-    const struct rho_passive_point *a = &search->passive->points[pair.a];
-    const struct rho_passive_point *b = &search->passive->points[pair.b];
-    float steps = search->step[b->scan] - search->step[a->scan], span_s = steps * search->half_s;
+    const unsigned k = point->scan, s[2] = {point->sensors / 8u, point->sensors % 8u};
+    const float middle = rho_passive_crossing_step(search, point);
+    const struct rho_batch_bearing *a =
+        &search->passive->batch.bearings[k][s[0]][point->bearing[0]];
+    const struct rho_batch_bearing *b =
+        &search->passive->batch.bearings[k][s[1]][point->bearing[1]];
+    const float apart = search->at[k][s[0]].step - middle;
+    const float by = apart < 0.0f || apart > 0.0f
+                         ? apart / (a->cosine * b->sine - a->sine * b->cosine)
+                         : 0.0f;
+    const float mixed = by * (a->sine * b->cosine + a->cosine * b->sine);
+    times[0][0] = middle - mixed;
+    times[0][1] = 2.0f * by * a->cosine * b->cosine;
+    times[1][0] = -2.0f * by * a->sine * b->sine;
+    times[1][1] = middle + mixed;
+}
+
+/* Solves (times of b - times of a) d = b - a: four bearings, each linear in place and velocity. */
+int rho_passive_connect_crossings(const struct rho_passive_search *search,
+                                  const struct rho_passive_point *a,
+                                  const struct rho_passive_point *b,
+                                  float state_m[RHO_PASSIVE_STATES])
+{
+    float steps = rho_passive_crossing_step(search, b) - rho_passive_crossing_step(search, a);
     float dx_m = b->x_m - a->x_m, dy_m = b->y_m - a->y_m;
-    float most_m = (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * span_s;
+    float most_m =
+        (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * steps * search->half_s;
     float way2_m2 = dx_m * dx_m + dy_m * dy_m;
     /* uncertainty of the crossings is added only where needed: it costs a square root */
     if (way2_m2 > most_m * most_m) {
@@ -62,10 +88,20 @@ static int connect_crossings(const struct rho_passive_search *search, struct pai
             return 0;
         }
     }
-    state_m[RHO_PASSIVE_DX] = dx_m / steps;
-    state_m[RHO_PASSIVE_DY] = dy_m / steps;
-    state_m[RHO_PASSIVE_X] = a->x_m - search->step[a->scan] * state_m[RHO_PASSIVE_DX];
-    state_m[RHO_PASSIVE_Y] = a->y_m - search->step[a->scan] * state_m[RHO_PASSIVE_DY];
+    float from[2][2], to[2][2];
+    crossing_times(search, a, from);
+    crossing_times(search, b, to);
+    const float xx = to[0][0] - from[0][0], xy = to[0][1] - from[0][1];
+    const float yx = to[1][0] - from[1][0], yy = to[1][1] - from[1][1];
+    const float size = xx * yy - xy * yx;
+    if (!(size > 0.1f * steps * steps)) {
+        return 0;
+    }
+    const float x = (yy * dx_m - xy * dy_m) / size, y = (xx * dy_m - yx * dx_m) / size;
+    state_m[RHO_PASSIVE_DX] = x;
+    state_m[RHO_PASSIVE_DY] = y;
+    state_m[RHO_PASSIVE_X] = a->x_m - from[0][0] * x - from[0][1] * y;
+    state_m[RHO_PASSIVE_Y] = a->y_m - from[1][0] * x - from[1][1] * y;
     return 1;
 }
 
@@ -80,7 +116,8 @@ static void list_best_pairs(struct rho_passive_search *search, const uint16_t *i
             struct pair pair = {index[i], index[j]};
             float state_m[RHO_PASSIVE_STATES];
             if (passive->points[pair.b].scan < scan_min ||
-                !connect_crossings(search, pair, state_m)) {
+                !rho_passive_connect_crossings(search, &passive->points[pair.a],
+                                               &passive->points[pair.b], state_m)) {
                 continue;
             }
             float least = best->count < FITS_PER_LINE ? -1.0f : best->agreement[FITS_PER_LINE - 1u];
@@ -118,7 +155,9 @@ void rho_passive_fit_line_pairs(struct rho_passive_search *search,
          */
         int is_useless = fitted->a == pair.a && fitted->b == pair.b &&
                          (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
-        if (is_useless || !connect_crossings(search, pair, state_m)) {
+        const struct rho_passive_point *points = search->passive->points;
+        if (is_useless || !rho_passive_connect_crossings(search, &points[pair.a], &points[pair.b],
+                                                         state_m)) {
             continue;
         }
         rho_passive_fit_nearest(search, state_m, 0);

@@ -25,35 +25,31 @@ static int swapped_state(const struct rho_passive_search *search, const struct c
                          float state_m[RHO_PASSIVE_STATES])
 {
     const struct rho_batch *batch = &search->passive->batch;
-    struct rho_crossing_base base;
-    struct rho_crossing crossing, first = {0}, last = {0};
-    unsigned first_scan = batch->num_scans, last_scan = 0;
-    if (rho_crossing_set_base(&base, search->x_m[sensors[0]], search->y_m[sensors[0]],
-                              search->x_m[sensors[1]], search->y_m[sensors[1]]) != RHO_OK) {
-        return 0;
-    }
+    struct rho_passive_point ends[2];
+    unsigned num = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
-        unsigned a = claims->of[i][k][sensors[0]], b = claims->of[j][k][sensors[1]]; /* from 1 */
-        if (a > 0 && b > 0 &&
+        const unsigned a = claims->of[i][k][sensors[0]], b = claims->of[j][k][sensors[1]];
+        const struct rho_passive_look *from = &search->at[k][sensors[0]];
+        const struct rho_passive_look *to = &search->at[k][sensors[1]];
+        struct rho_crossing_base base;
+        struct rho_crossing crossing;
+        if (a > 0 && b > 0 && /* indices from 1 */
+            rho_crossing_set_base(&base, from->x_m, from->y_m, to->x_m, to->y_m) == RHO_OK &&
             rho_crossing_find(&base, batch->bearings[k][sensors[0]][a - 1].bearing_rad,
                               batch->bearings[k][sensors[1]][b - 1].bearing_rad,
                               search->passive->config.range_max_m,
                               &crossing) == RHO_CROSSING_MEETS) {
-            first = first_scan == batch->num_scans ? crossing : first;
-            first_scan = first_scan == batch->num_scans ? k : first_scan;
-            last = crossing;
-            last_scan = k;
+            ends[num > 0] = (struct rho_passive_point){
+                .x_m = crossing.x_m,
+                .y_m = crossing.y_m,
+                .xx_m2 = rho_square(search->passive->config.range_max_m), /* at any speed */
+                .scan = (uint8_t)k,
+                .sensors = (uint8_t)(8u * sensors[0] + sensors[1]),
+                .bearing = {(uint8_t)(a - 1u), (uint8_t)(b - 1u)}};
+            num++;
         }
     }
-    if (first_scan >= last_scan) {
-        return 0;
-    }
-    float from = search->step[first_scan], span = search->step[last_scan] - from;
-    state_m[RHO_PASSIVE_DX] = (last.x_m - first.x_m) / span;
-    state_m[RHO_PASSIVE_DY] = (last.y_m - first.y_m) / span;
-    state_m[RHO_PASSIVE_X] = first.x_m - from * state_m[RHO_PASSIVE_DX];
-    state_m[RHO_PASSIVE_Y] = first.y_m - from * state_m[RHO_PASSIVE_DY];
-    return 1;
+    return num > 1 && rho_passive_connect_crossings(search, &ends[0], &ends[1], state_m);
 }
 
 static void offer_swapped_candidates(struct rho_passive_search *search, const struct claims *claims,

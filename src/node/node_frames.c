@@ -67,8 +67,10 @@ static int is_near_others(const struct rho_node *node, const struct rho_bearing_
                               : RHO_NODE_HAS_PASSIVE ? NODE_PASSIVE(node)->batch.apart_max_m
                                                      : RANGE_UNKNOWN_M;
     for (unsigned i = 0; i < frames->num_sensors; i++) {
-        float x_m = frames->sensors[i].x_m - scan->x_m, y_m = frames->sensors[i].y_m - scan->y_m;
-        if (x_m * x_m + y_m * y_m > apart_max_m * apart_max_m) {
+        const struct rho_frames_sensor *other = &frames->sensors[i];
+        const float x_m = other->x_m - scan->x_m, y_m = other->y_m - scan->y_m;
+        if (other->sensor_id != scan->sensor_id &&
+            x_m * x_m + y_m * y_m > apart_max_m * apart_max_m) {
             return 0;
         }
     }

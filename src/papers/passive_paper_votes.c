@@ -62,7 +62,7 @@ int rho_passive_paper_fill_ghosts(const struct rho_passive_paper *paper,
                                   struct rho_crossing_base *base, struct rho_ghost_matrix *matrix)
 {
     const struct rho_batch *batch = &paper->batch;
-    const struct rho_batch_sensor *a = &batch->sensors[pair.a], *b = &batch->sensors[pair.b];
+    const struct rho_batch_look *a = &batch->looks[scan][pair.a], *b = &batch->looks[scan][pair.b];
     float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
     unsigned num_a = collect_bearings(batch, scan, pair.a, a_rad);
     unsigned num_b = collect_bearings(batch, scan, pair.b, b_rad);
@@ -70,7 +70,7 @@ int rho_passive_paper_fill_ghosts(const struct rho_passive_paper *paper,
                               b->x_m - search->middle_x_m, b->y_m - search->middle_y_m) != RHO_OK ||
         rho_ghost_fill(matrix, base, a_rad, num_a, b_rad, num_b, paper->config.range_max_m) !=
             RHO_OK) {
-        return 0; /* cannot fail: sensor positions were checked when the frame was pushed */
+        return 0; /* the sensors are at one place */
     }
     rho_ghost_prune(matrix, paper->config.rule);
     return 1;

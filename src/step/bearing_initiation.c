@@ -109,7 +109,9 @@ static void start_found_track(struct step *step, const struct rho_passive_track 
     }
 }
 
-/* Searches a full batch only: in a shorter one ghosts may still move on straight lines. */
+/*
+ * Searches a full batch only, once a row: in a shorter one ghosts may still move on straight lines.
+ */
 void rho_step_initiate_bearings(struct step *step)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
@@ -135,7 +137,7 @@ void rho_step_initiate_bearings(struct step *step)
         first = rho_count(first, scan->num_bearings);
     }
     counters->plots_clutter = rho_count(counters->plots_clutter, passive->batch.num_left);
-    if (passive->batch.num_scans < passive->batch.scans_max) {
+    if (passive->batch.num_scans < passive->batch.scans_max || !passive->batch.is_due) {
         return;
     }
     (void)!rho_passive_search(passive);

@@ -248,7 +248,7 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     }
     rho_step_batch_to_report(&look, &held, frame);
     recount_held(tracker, report, held.fates, num, num_held);
-    if (paper->batch.num_scans < paper->batch.scans_max) {
+    if (paper->batch.num_scans < paper->batch.scans_max || !paper->batch.is_due) {
         return RHO_OK;
     }
     status = rho_passive_paper_search(paper);

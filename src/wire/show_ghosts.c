@@ -97,14 +97,15 @@ enum rho_status rho_show_write_ghosts(const struct rho_show_source *source, uint
         rho_passive_paper_ghosts(paper, &pair, paper->batch.num_scans - 1u, &matrix) != RHO_OK) {
         return RHO_ERROR_STATE;
     }
-    const struct rho_batch_sensor *a = &paper->batch.sensors[pair.a];
-    const struct rho_batch_sensor *b = &paper->batch.sensors[pair.b];
+    const unsigned scan = paper->batch.num_scans - 1u;
+    const struct rho_batch_look *a = &paper->batch.looks[scan][pair.a];
+    const struct rho_batch_look *b = &paper->batch.looks[scan][pair.b];
     const struct rho_message_ghost_matrix_head head = {
-        .utime = paper->batch.time_us[paper->batch.num_scans - 1u],
+        .utime = paper->batch.time_us[scan],
         .scan = source->step,
         .epoch = source->epoch,
-        .sensor_a_id = rho_clamp_sensor_id(a->sensor_id),
-        .sensor_b_id = rho_clamp_sensor_id(b->sensor_id),
+        .sensor_a_id = rho_clamp_sensor_id(paper->batch.sensors[pair.a].sensor_id),
+        .sensor_b_id = rho_clamp_sensor_id(paper->batch.sensors[pair.b].sensor_id),
         .sensor_a_x_m = a->x_m,
         .sensor_a_y_m = a->y_m,
         .sensor_b_x_m = b->x_m,

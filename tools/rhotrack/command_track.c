@@ -274,9 +274,9 @@ static void print_summary(const struct tracking *tracking,
                 counters->scans_retrodicted, counters->scans_late,
                 advice_on_late_scans(parameters, counters->scans_late));
     }
-    if (counts->frames_incomplete) {
-        fprintf(stderr, ", %" PRIu64 " frames miss a sensor%s", counts->frames_incomplete,
-                counts->frames_incomplete == counts->frames ? " (all: see frame_tolerance_s)" : "");
+    /* where all do, sensors look at times of their own */
+    if (counts->frames_incomplete > 0 && counts->frames_incomplete < counts->frames) {
+        fprintf(stderr, ", %" PRIu64 " frames miss a sensor", counts->frames_incomplete);
     }
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);

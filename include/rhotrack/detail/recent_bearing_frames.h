@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * recent_bearing_frames: the bearings of the last N frames, by scan and sensor, in which the
+ * recent_bearing_frames: the newest bearings, in N rows of a look of each sensor, in which the
  * passive initiators search for tracks.
  *
- * A frame has the scans of several sensors at one time. A sensor is known from its first scan on,
- * must not move, and keeps its index. Embedded in the initiators; usable alone.
+ * Each look has its own time and place: sensors may move, stand together, and look at times of
+ * their own. A sensor is known from its first look on, and keeps its index. A look goes into the
+ * newest row while that lacks its sensor; in a row that waits for slower sensors it takes the place
+ * of its sensor's older look. Embedded in the initiators; usable alone.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -24,6 +26,12 @@ RHO_BEGIN_C
 
 struct rho_batch_sensor {
     int32_t sensor_id;
+    float x_m, y_m; /* place at its newest look */
+};
+
+/* When and where a sensor looked. */
+struct rho_batch_look {
+    int32_t offset_us; /* time after that of its row */
     float x_m, y_m;
 };
 
@@ -34,15 +42,19 @@ struct rho_batch_bearing {
 };
 
 struct rho_batch {
-    uint16_t scans_max; /* capacity in scans (frames): N */
+    uint16_t scans_max; /* capacity in rows: N */
     uint16_t num_sensors, num_scans;
+    uint8_t is_whole;  /* 1: the newest row has a look of each sensor, or a frame of several */
+    uint8_t is_due;    /* 1: the last push made a row whole, or ended one that was not */
     float apart_max_m; /* largest distance of two sensors that is accepted */
-    uint32_t num_left; /* number of bearings that the last push dropped with the oldest frame */
+    uint32_t num_left; /* number of bearings that the last push dropped with older looks */
+    int64_t newest_us; /* time of the newest frame */
     struct rho_batch_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
-    /* times of the held scans, oldest first */
+    /* times of the first looks of the rows, oldest first */
     int64_t time_us[RHO_MAX_PASSIVE_SCANS];
+    struct rho_batch_look looks[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     uint8_t num_bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
-    /* 1: the sensor reported in this scan, also without bearings */
+    /* 1: the sensor looked in this row, also without bearings */
     uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     /* sector of each look, counter-clockwise from .. to; equal: the whole circle */
     float sector_from_rad[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
@@ -67,15 +79,15 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
                                                  const struct rho_frame *frame);
 
 /*
- * Adds a frame to the batch; a full batch drops its oldest frame.
- *   frame  its time is taken for all its bearings; their offsets are ignored
+ * Adds a frame of one look or more to the batch; a full batch drops its oldest row.
+ *   frame  the time of a scan is taken for all its bearings; their offsets are ignored
  *   fates  one for each bearing, in the order of the frame's scans; bearings with HELD are stored,
  *          or get INVALID (rho_bearing_is_valid) or NO_ROOM (beyond RHO_MAX_BEARINGS)
  * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than
- * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor that has moved, is nearer
- * than RHO_CROSSING_BASE_MIN_M to another or farther than apart_max_m from it, or whose position is
- * not a coordinate, a sector beyond one turn either way); nothing is changed. Cost: the bearings,
- * and moving the batch by a frame. Stack: 150 bytes.
+ * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor farther than apart_max_m
+ * from another, or whose position is not a coordinate, a sector beyond one turn either way, a scan
+ * more than RHO_LIMIT_OFFSET_US from its frame); nothing is changed. Cost: the bearings, and moving
+ * the batch by a row. Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
                                               const struct rho_frame *frame, uint8_t *fates);

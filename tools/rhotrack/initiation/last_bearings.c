@@ -10,9 +10,11 @@
 #include "io/scans/bearing_reader.h"
 #include "pipeline/pipeline.h"
 
+/* No smaller than the distance of two sensors at any time. */
 static double sensor_distance_m(const struct frame_sensor *a, const struct frame_sensor *b)
 {
-    return hypot((double)a->x_m - (double)b->x_m, (double)a->y_m - (double)b->y_m);
+    return hypot((double)a->x_m - (double)b->x_m, (double)a->y_m - (double)b->y_m) + a->moves_m +
+           b->moves_m;
 }
 
 double bearing_sensors_max_distance_m(const struct frame_sensor *sensors, size_t count)

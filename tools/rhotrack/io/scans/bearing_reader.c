@@ -291,14 +291,11 @@ struct bearing_reader_counts bearing_reader_counts(const struct bearing_reader *
 void bearing_reader_report(const struct bearing_reader *reader)
 {
     print_rows_skipped(reader->total.rows_skipped);
-    if (reader->total.frames_incomplete) {
+    /* where all do, sensors look at times of their own */
+    if (reader->total.frames_incomplete > 0 &&
+        reader->total.frames_incomplete < reader->total.frames) {
         fprintf(stderr, "rhotrack: %" PRIu64 " of %" PRIu64 " frames miss a sensor\n",
                 reader->total.frames_incomplete, reader->total.frames);
-    }
-    if (reader->total.frames_incomplete == reader->total.frames) {
-        fprintf(stderr,
-                "rhotrack: frames hold the scans within frame_tolerance_s %.9g of one another\n",
-                (double)reader->tolerance_us * 1e-6);
     }
 }
 

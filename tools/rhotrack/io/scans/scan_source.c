@@ -43,9 +43,8 @@ static bool check_row_fits_scan(const struct scan_source *source, const struct g
         row->sector_to_rad != scan->sector_to_rad) {
         return row_refuse(check, "the sector differs from that of the scan's first row");
     }
-    if (source->options.kind == RECORD_PLOTS &&
-        (row->sensor.x_m != scan->sensor.x_m || row->sensor.y_m != scan->sensor.y_m ||
-         row->sensor.z_m != scan->sensor.z_m)) {
+    if (row->sensor.x_m != scan->sensor.x_m || row->sensor.y_m != scan->sensor.y_m ||
+        row->sensor.z_m != scan->sensor.z_m) {
         return row_refuse(check, "the sensor's place differs from that of the scan's first row");
     }
     return !row->has_measurement || !scan->has_measures || row->measures == scan->measures ||
@@ -54,12 +53,12 @@ static bool check_row_fits_scan(const struct scan_source *source, const struct g
 }
 
 /* Checks a row's sensor against the sensors of bearings of all files. */
-static bool check_bearing_sensor_is_fixed(const struct scan_source *source,
+static bool check_bearing_sensor_has_room(const struct scan_source *source,
                                           const struct measurement_row *row,
                                           const struct row_check *check)
 {
     return source->options.kind == RECORD_PLOTS ||
-           passive_sensors_check_row(source->options.known, source->path, row, check);
+           passive_sensors_check_row(source->options.known, row, check);
 }
 
 static bool check_received_fits_scan(const struct rows_to_scans *gather,
@@ -159,7 +158,7 @@ static void process_table_row(struct scan_source *source, const struct table *ta
                                            row.time_us, &check) &&
                   check_received_fits_scan(&source->gather, scan, &row, &check) &&
                   check_row_fits_scan(source, scan, &row, &check) &&
-                  check_bearing_sensor_is_fixed(source, &row, &check);
+                  check_bearing_sensor_has_room(source, &row, &check);
     }
     if (is_good) {
         source->has_good = true;
@@ -302,7 +301,7 @@ static bool add_or_refuse_bearing_sensor(struct scan_source *source,
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.reason = reason};
 
-    if (passive_sensors_check_row(source->options.known, source->path, &row, &check)) {
+    if (passive_sensors_check_row(source->options.known, &row, &check)) {
         passive_sensors_add(source->options.known, source->path, &row);
         return true;
     }
