@@ -108,11 +108,20 @@ struct rho_passive_fitted {
     uint16_t when;
 };
 
+/* A track that is followed already, for rho_passive_challenge. */
+struct rho_passive_known {
+    uint32_t track_id;
+    float x_m, y_m, vx_mps, vy_mps; /* at the time of the newest frame */
+    uint8_t is_safe;                /* 1: its bearings are its own, and start no other track */
+    uint8_t is_beaten;              /* result, 1: the best set of tracks is without it */
+};
+
 /* A fitted hypothesis of a track: position at mid-batch, and displacement in half the batch. */
 struct rho_passive_candidate {
     float state_m[4];
     float score_nat;
-    uint32_t hits;
+    uint16_t hits;
+    uint16_t known; /* 1 + index of the known track that it is; 0: a new one */
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 
@@ -143,6 +152,7 @@ struct rho_passive {
     struct rho_passive_work work;
     struct rho_passive_track tracks[RHO_MAX_PASSIVE_TRACKS];
     struct rho_batch batch;
+    /* of each bearing, during a search: 0 free, 1 a chosen candidate's, 2 another track's */
     uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
     /* from here on: scratch memory of a search */
     /*
@@ -186,17 +196,30 @@ RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
                                                 const struct rho_frame *frame, uint8_t *fates);
 
 /*
- * Removes the bearings of a track of the last search from the batch, so that a later search starts
- * no other track from them. To be called once a track. Returns the number of bearings removed.
+ * Gives the bearings of a track of the last search to the track that was started from it. Returns
+ * their number.
  */
-uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track);
+uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_track *track,
+                          uint32_t track_id);
 
 /*
- * Searches the batch for tracks. Results: passive->tracks[0 .. num_tracks - 1].
+ * Searches the batch for tracks, from bearings without an owner. Results: passive->tracks[0 ..
+ * num_tracks - 1].
  * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no track.
  * Cost: src/DESIGN.md. Stack: 3.5 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
+
+/*
+ * Searches all bearings for the best set of tracks, known ones and new ones, and says which known
+ * ones it lacks: so a track that began with bearings of several targets gives way to theirs.
+ * Bearings of owners that are not known are free. Results: the new tracks, as of
+ * rho_passive_search, and known[].is_beaten; at most RHO_MAX_PASSIVE_TRACKS that are not safe.
+ * Errors: NULL, STATE, CAPACITY (more than that). Cost, stack: as rho_passive_search.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_challenge(struct rho_passive *passive,
+                                                     struct rho_passive_known *known,
+                                                     uint32_t num_known);
 
 /* Pairs of sensors that both gave the track a bearing. Cost: all claims. */
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track);

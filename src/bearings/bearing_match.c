@@ -105,7 +105,7 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
         float sigma_rad = floored_sigma_rad(search, &bearings[i]);
         if (rho_square(cross_range_m * nearest.sigma_rad) < least_m2 * rho_square(sigma_rad) &&
             bearings[i].cosine * offset.x_m + bearings[i].sine * offset.y_m > 0.0f &&
-            (include_claimed || !passive->is_claimed[scan][sensor][i])) {
+            passive->is_claimed[scan][sensor][i] <= include_claimed) {
             least_m2 = rho_square(cross_range_m);
             nearest = (struct rho_passive_match){(int)i, offset, cross_range_m, sigma_rad};
         }

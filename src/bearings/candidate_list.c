@@ -34,7 +34,7 @@ static int shares_most_of(const struct rho_passive_search *search,
 int rho_passive_offer_if_track(struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES])
 {
-    struct rho_passive_candidate candidate;
+    struct rho_passive_candidate candidate = {.known = 0};
     float chi2;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
     rho_passive_claim_nearest(search, 1, &candidate);
@@ -44,13 +44,13 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
     struct rho_passive *passive = search->passive;
     struct rho_passive_candidate *list = passive->candidates;
     for (unsigned i = 0; i < passive->num_candidates; i++) {
-        if (list[i].score_nat >= candidate.score_nat &&
+        if ((list[i].known > 0 || list[i].score_nat >= candidate.score_nat) &&
             shares_most_of(search, &candidate, &list[i])) {
             return 1; /* a better duplicate is there */
         }
     }
     for (unsigned i = passive->num_candidates; i > 0; i--) {
-        if (shares_most_of(search, &list[i - 1u], &candidate)) {
+        if (list[i - 1u].known == 0 && shares_most_of(search, &list[i - 1u], &candidate)) {
             list[i - 1u] = list[--passive->num_candidates];
             /* cannot overflow: at most one removal for each of 2 passes x 96 lines x 20 fits */
             search->candidates_removed++;
@@ -63,7 +63,10 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
     /* a full list drops its lowest score, or the new candidate */
     unsigned lowest = 0;
     for (unsigned i = 1; i < passive->num_candidates; i++) {
-        lowest = list[i].score_nat < list[lowest].score_nat ? i : lowest;
+        lowest = list[lowest].known > 0 ||
+                         (list[i].known == 0 && list[i].score_nat < list[lowest].score_nat)
+                     ? i
+                     : lowest;
     }
     passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
     search->candidates_removed++;

@@ -86,6 +86,10 @@ static void find_margins(const struct rho_passive_search *search, struct rho_pas
     const struct rho_passive_set *best = &search->passive->best;
     unsigned changes = 0;
     for (unsigned t = 0; t < best->num;) {
+        if (best->tracks[t].known > 0) {
+            margins_nat[t++] = 0.0f;
+            continue;
+        }
         float total_nat = best->total_nat;
         float margin_nat = total_nat - best_total_without_target(search, choice, best->candidate[t],
                                                                  changes < CHANGES_MAX);
@@ -124,7 +128,14 @@ void rho_passive_select_tracks(struct rho_passive_search *search)
     rho_passive_fit_jointly(search, &choice, &passive->best);
     find_margins(search, &choice, margins_nat);
     passive->num_tracks = 0;
+    for (uint32_t i = 0; i < search->num_known; i++) {
+        search->known[i].is_beaten = !search->known[i].is_safe;
+    }
     for (unsigned i = 0; i < best->num; i++) {
+        if (best->tracks[i].known > 0) {
+            search->known[best->tracks[i].known - 1u].is_beaten = 0;
+            continue;
+        }
         struct rho_passive_track *track = &passive->tracks[passive->num_tracks];
         memcpy(track->claim, best->tracks[i].claim, sizeof track->claim);
         if (!rho_passive_estimate_track(search, &best->tracks[i], track)) {

@@ -91,9 +91,15 @@ static void assign_look(const struct rho_passive_search *search, struct rho_pass
     struct look_assignment look = {.num_tracks = set->num};
     look.num_bearings = search->passive->batch.num_bearings[scan][sensor];
     for (unsigned t = 0; t < look.num_tracks; t++) {
-        for (unsigned i = 1; i <= look.num_bearings; i++) {
+        const int is_known = set->tracks[t].known > 0;
+        for (unsigned i = 1; i <= look.num_bearings && !is_known; i++) {
             look.gain_nat[t][i] =
-                rho_passive_gain_nat(search, set->tracks[t].state_m, scan, sensor, i);
+                search->passive->is_claimed[scan][sensor][i - 1u] == RHO_PASSIVE_BLOCKED
+                    ? 0.0f
+                    : rho_passive_gain_nat(search, set->tracks[t].state_m, scan, sensor, i);
+        }
+        if (is_known) { /* keeps its bearings */
+            assign_bearing(&look, t, set->tracks[t].claim[scan][sensor]);
         }
     }
     assign_greedily(&look);
@@ -103,6 +109,7 @@ static void assign_look(const struct rho_passive_search *search, struct rho_pass
         for (unsigned taker = 0; taker < look.num_tracks && !is_better; taker++) {
             for (unsigned loser = 0; loser < look.num_tracks && !is_better; loser++) {
                 is_better = taker != loser && look.claim[loser] > 0 &&
+                            set->tracks[loser].known == 0 &&
                             take_over_bearing(&look, taker, loser);
             }
         }
@@ -145,13 +152,16 @@ static void fit_set(const struct rho_passive_search *search, struct rho_passive_
                 }
             }
             for (unsigned t = 0; t < set->num; t++) {
-                rho_passive_step_to_claims(search, &set->tracks[t]);
+                if (set->tracks[t].known == 0) {
+                    rho_passive_step_to_claims(search, &set->tracks[t]);
+                }
             }
         }
         set->total_nat = 0.0f;
         for (unsigned t = 0; t < set->num; t++) {
             set->is_track[t] =
-                (uint8_t)rho_passive_score_claimed(search, &set->tracks[t], &set->chi2[t]);
+                set->tracks[t].known > 0 ||
+                rho_passive_score_claimed(search, &set->tracks[t], &set->chi2[t]);
             set->total_nat += set->tracks[t].score_nat;
         }
     } while (drop_worst_non_track(set));
@@ -194,8 +204,10 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
     fit_set(search, set);
     for (unsigned t = 0; t < spare->num; t++) {
         struct rho_passive_candidate *track = &spare->tracks[t];
-        rho_passive_fit_nearest(search, track->state_m, 0);
-        rho_passive_claim_nearest(search, 0, track);
+        if (track->known == 0) {
+            rho_passive_fit_nearest(search, track->state_m, 0);
+            rho_passive_claim_nearest(search, 0, track);
+        }
         rho_passive_mark_claims(passive, track, 1);
     }
     for (unsigned t = 0; t < spare->num; t++) {

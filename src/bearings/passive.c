@@ -76,7 +76,7 @@ enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_f
     if (passive->magic != PASSIVE_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    enum rho_status status = rho_batch_push(&passive->batch, frame, fates);
+    enum rho_status status = rho_batch_push(&passive->batch, frame, fates, 0);
     if (status == RHO_OK) {
         passive->num_tracks = 0;
     }
@@ -93,11 +93,26 @@ enum rho_status rho_passive_accepts(const struct rho_passive *passive,
                                            : RHO_ERROR_STATE;
 }
 
-uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
+uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_track *track,
+                          uint32_t track_id)
 {
-    return passive && track && passive->magic == PASSIVE_MAGIC
-               ? rho_batch_remove(&passive->batch, track->claim)
-               : 0;
+    uint32_t given = 0;
+    if (!passive || !track || passive->magic != PASSIVE_MAGIC) {
+        return 0;
+    }
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            const unsigned place = track->claim[k][s];
+            if (place > 0 && place <= passive->batch.num_bearings[k][s]) {
+                struct rho_batch_bearing *bearing = &passive->batch.bearings[k][s][place - 1u];
+                const float fit_nat = 0.5f * (RHO_LOG_TWO_PI + track->chi2 / (float)track->hits);
+                bearing->owner =
+                    (struct rho_batch_owner){track_id, -rho_log(bearing->sigma_rad) - fit_nat};
+                given++;
+            }
+        }
+    }
+    return given;
 }
 
 /* A pass over the unclaimed bearings: crossings, the lines that they vote for, candidates. */
@@ -125,24 +140,19 @@ static void find_candidates(struct rho_passive_search *search, float votes_share
     }
 }
 
-enum rho_status rho_passive_search(struct rho_passive *passive)
+static enum rho_status search_batch(struct rho_passive *passive, struct rho_passive_known *known,
+                                    uint32_t num_known)
 {
-    if (!passive) {
-        return RHO_ERROR_NULL;
-    }
-    if (passive->magic != PASSIVE_MAGIC) {
-        return RHO_ERROR_STATE;
-    }
-    struct rho_passive_search search = {.passive = passive};
+    struct rho_passive_search search = {.passive = passive, .known = known, .num_known = num_known};
     memset(&passive->work, 0, sizeof passive->work);
-    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
     passive->num_tracks = passive->num_candidates = 0;
     passive->start_mnat = 0;
-    rho_batch_compact(&passive->batch);
     if (passive->batch.num_scans < RHO_BATCH_SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
     }
     rho_passive_prepare(&search);
+    rho_passive_block_bearings(&search);
+    rho_passive_list_known(&search);
 
     /* first pass: only crossings that a third sensor supports */
     find_candidates(&search, FIRST_VOTES_SHARE);
@@ -152,12 +162,41 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     /* second pass: all crossings of the bearings that no track of the first pass has claimed */
     search.is_second = 1;
     find_candidates(&search, SECOND_VOTES_SHARE);
-    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
+    rho_passive_block_bearings(&search);
 
     /* the final selection is from the candidates of both passes */
     rho_passive_offer_swapped(&search);
     rho_passive_select_tracks(&search);
     return RHO_OK;
+}
+
+enum rho_status rho_passive_search(struct rho_passive *passive)
+{
+    if (!passive) {
+        return RHO_ERROR_NULL;
+    }
+    return passive->magic == PASSIVE_MAGIC ? search_batch(passive, 0, 0) : RHO_ERROR_STATE;
+}
+
+enum rho_status rho_passive_challenge(struct rho_passive *passive, struct rho_passive_known *known,
+                                      uint32_t num_known)
+{
+    uint32_t num_rivals = 0;
+    if (!passive || (num_known > 0 && !known)) {
+        return RHO_ERROR_NULL;
+    }
+    if (passive->magic != PASSIVE_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    for (uint32_t i = 0; i < num_known; i++) {
+        known[i].is_beaten = 0;
+        num_rivals += !known[i].is_safe;
+    }
+    if (num_rivals > RHO_MAX_PASSIVE_TRACKS) {
+        return RHO_ERROR_CAPACITY;
+    }
+    rho_passive_release(passive, known, num_known);
+    return search_batch(passive, known, num_known);
 }
 
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)

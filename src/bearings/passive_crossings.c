@@ -24,7 +24,7 @@ static unsigned collect_bearings(const struct rho_passive_search *search, unsign
     const struct rho_passive *passive = search->passive;
     unsigned count = 0;
     for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
-        if (!search->is_second || !passive->is_claimed[scan][sensor][i]) {
+        if (passive->is_claimed[scan][sensor][i] <= !search->is_second) {
             index[count] = (uint8_t)i;
             bearings_rad[count++] = passive->batch.bearings[scan][sensor][i].bearing_rad;
         }

@@ -127,9 +127,8 @@ void rho_passive_step_to_claims(const struct rho_passive_search *search,
     (void)take_step(search, &equations, track->state_m);
 }
 
-/* Whether the state's position was within the sensor's sector in the scan. */
-static int is_in_view(const struct rho_passive_search *search, unsigned scan, unsigned sensor,
-                      const float state_m[N])
+int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned scan, unsigned sensor,
+                           const float state_m[N])
 {
     const struct rho_batch *batch = &search->passive->batch;
     float from_rad = batch->sector_from_rad[scan][sensor];
@@ -180,7 +179,7 @@ static int is_track(const struct rho_passive_search *search,
 static float score_of_hit(const struct rho_passive_search *search,
                           const struct rho_passive_match *seen, float chi2)
 {
-    return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * chi2;
+    return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * (RHO_LOG_TWO_PI + chi2);
 }
 
 int rho_passive_score_claimed(const struct rho_passive_search *search,
@@ -199,7 +198,7 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
                 track->hits++;
                 *chi2 += seen_chi2;
                 track->score_nat += score_of_hit(search, &seen, seen_chi2);
-            } else if (batch->was_seen[k][s] && is_in_view(search, k, s, track->state_m)) {
+            } else if (batch->was_seen[k][s] && rho_passive_is_in_view(search, k, s, track->state_m)) {
                 track->score_nat += search->miss_nat;
             } else {
                 out_of_view += batch->was_seen[k][s];

@@ -11,7 +11,7 @@ void rho_passive_prepare(struct rho_passive_search *search)
 {
     const struct rho_batch *batch = &search->passive->batch;
     const struct rho_passive_config *config = &search->passive->config;
-    float total = 0.0f, log_sigmas = 0.0f, x_m = 0.0f, y_m = 0.0f;
+    float total = 0.0f, free = 0.0f, log_sigmas = 0.0f, x_m = 0.0f, y_m = 0.0f;
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             search->looks += batch->was_seen[k][s];
@@ -32,22 +32,23 @@ void rho_passive_prepare(struct rho_passive_search *search)
                 .step = rho_seconds_between(first_us, time_us) / search->half_s - 1.0f,
                 .x_m = look->x_m - search->middle_x_m,
                 .y_m = look->y_m - search->middle_y_m};
-            total += (float)batch->num_bearings[k][s];
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
                 float sigma_rad = batch->bearings[k][s][i].sigma_rad;
                 float least_rad = sigma_rad / SIGMA_RATIO_MAX;
                 log_sigmas += rho_log(sigma_rad);
+                total += 1.0f;
+                free += batch->bearings[k][s][i].owner.track_id == 0 ? 1.0f : 0.0f;
                 search->sigma_min_rad = rho_larger(least_rad, search->sigma_min_rad);
             }
         }
     }
-    /* false bearings are uniform in the field of view, with the density of all bearings */
-    float density = total / looks / config->field_of_view_rad;
+    /* false bearings are uniform in the field of view, with the density of those without a track */
+    float density = free / looks / config->field_of_view_rad;
     density = density > DENSITY_MIN_PER_RAD ? density : DENSITY_MIN_PER_RAD;
-    search->hit_nat = rho_log(config->pd / (density * 2.50662827f /* sqrt(2 pi) */));
+    search->hit_nat = rho_log(config->pd / density);
     search->miss_nat = rho_log(1.0f - config->pd);
     search->share_nat =
-        search->hit_nat - log_sigmas / (total > 0.0f ? total : 1.0f) - search->miss_nat;
+        search->hit_nat - search->miss_nat - 0.5f * RHO_LOG_TWO_PI - log_sigmas / rho_larger(total, 1.0f);
     search->theta_cells = (uint16_t)(RHO_PI / config->theta_cell_rad + 0.5f);
     for (unsigned i = 0; i < search->theta_cells; i++) {
         float theta_rad = ((float)i + 0.5f) * RHO_PI / (float)search->theta_cells;

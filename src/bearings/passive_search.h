@@ -9,6 +9,7 @@
  * - best_subset.c: the subset of candidates with the highest total score
  * - joint_fit.c: one-to-one assignment of bearings to the chosen tracks, and their fits
  * - passive_prepare.c: geometry, times, likelihood ratios
+ * - known_tracks.c: the tracks that are followed already, as candidates
  * - passive_crossings.c: phase 1: crossings of all pairs of sensors
  * - crossing_votes.c: phase 2: votes, and the lines with the most votes
  * - starts.c: phase 3: constant velocities through pairs of a line's crossings
@@ -36,10 +37,12 @@ struct rho_passive_look {
 /* Values computed once for a search. Positions are relative to the looks' centroid. */
 struct rho_passive_search {
     struct rho_passive *passive;
+    struct rho_passive_known *known; /* the tracks that are challenged, and safe ones */
+    uint32_t num_known;
     float middle_x_m, middle_y_m; /* centroid of the places of all looks */
     float half_s;                 /* half the time from the first row to the newest frame */
     struct rho_passive_look at[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
-    float hit_nat; /* score of a bearing with residual 0 and a sigma of 1 rad */
+    float hit_nat; /* score of a bearing with a density of 1 per radian */
     /* score of a look in which the track's position was in view but got no bearing */
     float miss_nat;
     float share_nat;     /* penalty of a choice for each bearing that two chosen candidates claim */
@@ -60,6 +63,15 @@ struct rho_passive_search {
 void rho_passive_prepare(struct rho_passive_search *search);
 /* Sets passive->start_mnat, for the allowed rate of false tracks, by the first pass' crossings. */
 void rho_passive_set_start_score(const struct rho_passive_search *search);
+/* Bearings of owners that are none of the known tracks get none. */
+void rho_passive_release(struct rho_passive *passive, struct rho_passive_known *known,
+                         uint32_t num_known);
+/* Values of is_claimed: a bearing of a safe track is BLOCKED, and none matches it. */
+enum { RHO_PASSIVE_FREE, RHO_PASSIVE_CLAIMED, RHO_PASSIVE_BLOCKED };
+/* Blocks the bearings of owners, except known tracks that are not safe, and frees all others. */
+void rho_passive_block_bearings(struct rho_passive_search *search);
+/* Lists the known tracks that are not safe as candidates. */
+void rho_passive_list_known(struct rho_passive_search *search);
 /* Crosses the bearings of all pairs of sensors, scan by scan, into passive->points. */
 void rho_passive_find_crossings(struct rho_passive_search *search);
 /* Time of a crossing: the middle of its looks. */
@@ -160,6 +172,9 @@ void rho_passive_step_to_claims(const struct rho_passive_search *search,
 /* Claims for a track's state the nearest bearing of each look within 3.5 sigmas. */
 void rho_passive_claim_nearest(const struct rho_passive_search *search, int include_claimed,
                                struct rho_passive_candidate *track);
+/* Whether the state's position was within the sensor's sector in the scan. */
+int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned scan, unsigned sensor,
+                           const float state_m[RHO_PASSIVE_STATES]);
 /*
  * Sets a track's score (log-likelihood ratio) and hits, and *chi2, by its claims. Returns whether
  * hits, chi-square, speed, observability and score satisfy the conditions of a track.

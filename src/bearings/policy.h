@@ -70,6 +70,14 @@
  */
 #define DUPLICATE_SHARE 0.8f
 
+/* known_tracks.c */
+
+/*
+ * What a track that is followed has over a new one of equal score. Half: tracks are exchanged for
+ * the noise of their bearings. Twice: tracks of swapped bearings stay.
+ */
+#define KNOWN_NAT 7.0f
+
 /* passive_crossings.c */
 
 /*

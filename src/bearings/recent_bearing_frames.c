@@ -147,15 +147,25 @@ static int joins_newest_row(const struct rho_batch *batch, const struct rho_fram
            (is_lacking || !has_looks_of_all(batch, newest));
 }
 
-/* Stores a scan, and those of its bearings with fate HELD; others it refuses get their fate. */
-static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *scan, uint8_t *fates)
+/* Counts the bearings without an owner that leave a look. */
+static void count_left(struct rho_batch *batch, unsigned scan, unsigned sensor)
 {
+    for (unsigned i = 0; i < batch->num_bearings[scan][sensor]; i++) {
+        batch->num_left += batch->bearings[scan][sensor][i].owner.track_id == 0;
+    }
+}
+
+/* Stores a scan, and those of its bearings to be held; others it refuses get their fate. */
+static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *scan, uint8_t *fates,
+                       const struct rho_batch_owner *owners)
+{
+    static const struct rho_batch_owner nobody = {.track_id = 0};
     const unsigned k = batch->num_scans - 1u, s = find_sensor(batch, scan->sensor_id);
     batch->num_sensors = (uint16_t)(batch->num_sensors + (s == batch->num_sensors));
     batch->sensors[s] = (struct rho_batch_sensor){scan->sensor_id, scan->x_m, scan->y_m};
     batch->looks[k][s] = (struct rho_batch_look){(int32_t)(scan->time_us - batch->time_us[k]),
                                                  scan->x_m, scan->y_m};
-    batch->num_left += batch->num_bearings[k][s];
+    count_left(batch, k, s);
     batch->num_bearings[k][s] = 0;
     batch->was_seen[k][s] = 1;
     batch->sector_from_rad[k][s] = scan->sector_from_rad;
@@ -163,7 +173,7 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
     for (uint32_t i = 0; i < scan->num_bearings; i++) {
         const struct rho_bearing *from = &scan->bearings[i];
         uint8_t *count = &batch->num_bearings[k][s];
-        if (fates[i] != RHO_FATE_HELD) {
+        if (fates[i] != RHO_FATE_HELD && !(owners && fates[i] == RHO_FATE_CLAIMED)) {
             continue;
         }
         if (!rho_bearing_is_valid(from)) {
@@ -175,7 +185,8 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
                 (struct rho_batch_bearing){.cosine = rho_cos(from->bearing_rad),
                                            .sine = rho_sin(from->bearing_rad),
                                            .bearing_rad = from->bearing_rad,
-                                           .sigma_rad = from->sigma_rad};
+                                           .sigma_rad = from->sigma_rad,
+                                           .owner = owners ? owners[i] : nobody};
         }
     }
 }
@@ -186,7 +197,7 @@ static void begin_row(struct rho_batch *batch, int64_t time_us)
     if (batch->num_scans == batch->scans_max) {
         size_t left = (size_t)batch->num_scans - 1u;
         for (unsigned s = 0; s < batch->num_sensors; s++) {
-            batch->num_left += batch->num_bearings[0][s];
+            count_left(batch, 0, s);
         }
         memmove(batch->time_us, batch->time_us + 1, left * sizeof batch->time_us[0]);
         memmove(batch->looks, batch->looks + 1, left * sizeof batch->looks[0]);
@@ -207,7 +218,7 @@ static void begin_row(struct rho_batch *batch, int64_t time_us)
 }
 
 enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *frame,
-                               uint8_t *fates)
+                               uint8_t *fates, const struct rho_batch_owner *owners)
 {
     enum rho_status status = rho_batch_accepts(batch, frame);
     if (status != RHO_OK) {
@@ -216,7 +227,6 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     if (frame->num_scans > 0 && !fates) {
         return RHO_ERROR_NULL;
     }
-    rho_batch_compact(batch);
     batch->num_left = 0;
     const int joins = joins_newest_row(batch, frame);
     batch->is_due = !joins && batch->num_scans > 0 && !batch->is_whole;
@@ -224,47 +234,14 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
         begin_row(batch, frame->time_us);
     }
     for (uint32_t i = 0; i < frame->num_scans; i++) {
-        store_scan(batch, &frame->scans[i], fates);
+        store_scan(batch, &frame->scans[i], fates, owners);
         fates += frame->scans[i].num_bearings;
+        owners = owners ? owners + frame->scans[i].num_bearings : 0;
     }
     batch->newest_us = frame->time_us;
     batch->is_whole = frame->num_scans > 1 || has_looks_of_all(batch, batch->num_scans - 1u);
     batch->is_due |= batch->is_whole;
     return RHO_OK;
-}
-
-uint32_t rho_batch_remove(struct rho_batch *batch,
-                          const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
-{
-    uint32_t count = 0;
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            unsigned place = claim[k][s];
-            if (place > 0 && place <= batch->num_bearings[k][s]) {
-                struct rho_batch_bearing *bearing = &batch->bearings[k][s][place - 1];
-                /* a bearing that was removed before is not counted again */
-                count += bearing->sigma_rad > 0.0f;
-                bearing->sigma_rad = 0.0f;
-            }
-        }
-    }
-    return count;
-}
-
-void rho_batch_compact(struct rho_batch *batch)
-{
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_batch_bearing *bearings = batch->bearings[k][s];
-            unsigned kept = 0;
-            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
-                if (bearings[i].sigma_rad > 0.0f) {
-                    bearings[kept++] = bearings[i];
-                }
-            }
-            batch->num_bearings[k][s] = (uint8_t)kept;
-        }
-    }
 }
 
 static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned sensor)
@@ -281,10 +258,8 @@ static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned 
         if (!rho_is_within(bearing->cosine, -1.01f, 1.01f) ||
             !rho_is_within(bearing->sine, -1.01f, 1.01f) ||
             !rho_is_within(bearing->bearing_rad, -10.0f, 10.0f) ||
-            /* the sigma of a removed bearing is 0 */
-            (!rho_is_within(bearing->sigma_rad, 0.0f, 0.0f) &&
-             !rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN,
-                            RHO_LIMIT_SIGMA_RAD_MAX))) {
+            !rho_is_within(bearing->owner.density_nat, -1.0e6f, 1.0e6f) ||
+            !rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX)) {
             return 0;
         }
     }

@@ -111,7 +111,7 @@ static void list_best_pairs(struct rho_passive_search *search, const uint16_t *i
 {
     struct rho_passive *passive = search->passive;
     for (unsigned i = 0; i < count; i++) {
-        unsigned scan_min = passive->points[index[i]].scan + PAIR_SCANS_MIN;
+        unsigned scan_min = passive->points[index[i]].scan + (passive->batch.num_scans + 1u) / 3u;
         for (unsigned j = 0; j < count; j++) {
             struct pair pair = {index[i], index[j]};
             float state_m[RHO_PASSIVE_STATES];

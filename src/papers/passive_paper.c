@@ -69,7 +69,7 @@ enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
     if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    enum rho_status status = rho_batch_push(&paper->batch, frame, fates);
+    enum rho_status status = rho_batch_push(&paper->batch, frame, fates, 0);
     if (status == RHO_OK) {
         paper->num_lines = 0;
     }
@@ -99,7 +99,6 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     struct rho_passive_paper_search search;
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
-    rho_batch_compact(&paper->batch);
     if (!rho_passive_paper_begin(paper, &search)) {
         return RHO_OK;
     }

@@ -24,11 +24,18 @@ static inline uint32_t num_bearings_with_fates(const struct rho_look *look,
     return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
 }
 
-/* A frame in the form that a batch takes: scans cut to the bearings with fates, and their fates. */
+/*
+ * A frame in the form that a batch takes: scans cut to the bearings with fates, and their fates.
+ */
 struct batch_frame {
     struct rho_frame frame;
     struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
     uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
+};
+
+/* The tracks that took the bearings of a frame's scans. */
+struct frame_owners {
+    struct rho_batch_owner of[RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
 };
 
 /* bearing_initiation.c: fills *held by a frame and the look's fates; copies its fates back */

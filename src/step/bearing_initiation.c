@@ -69,23 +69,159 @@ void rho_step_batch_to_report(const struct rho_look *look, const struct batch_fr
 
 /* A function of its own, for its stack: the batch's frame is needed here alone. */
 static void push_frame(const struct rho_look *look, const struct rho_frame *frame,
-                       struct rho_passive *passive)
+                       const struct frame_owners *owners, struct rho_passive *passive)
 {
+    struct rho_batch_owner packed[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
     struct batch_frame held;
+    unsigned num = 0;
     rho_step_frame_to_batch(look, frame, &held);
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        memcpy(packed + num, owners->of[i], held.scans[i].num_bearings * sizeof packed[0]);
+        num += held.scans[i].num_bearings;
+    }
     /* cannot fail: rho_tracker_step_frame has asked whether the batch accepts the frame */
-    (void)!rho_passive_push(passive, &held.frame, held.fates);
+    (void)!rho_batch_push(&passive->batch, &held.frame, held.fates, packed);
     rho_step_batch_to_report(look, &held, frame);
 }
 
-static void start_found_track(struct step *step, const struct rho_passive_track *found)
+/* Row of the track with this identity; RHO_MAX_TRACKS: none that lives. */
+static unsigned find_track(const struct rho_tracker *tracker, uint32_t track_id)
+{
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        if (tracker->tracks[row].track_id == track_id &&
+            tracker->tracks[row].status != RHO_TRACK_FREE) {
+            return row;
+        }
+    }
+    return RHO_MAX_TRACKS;
+}
+
+/* Tracks with bearings in the batch, with the number of these. */
+struct owners_list {
+    unsigned num, num_challenged;
+    struct rho_passive_known known[2 * RHO_MAX_PASSIVE_TRACKS];
+};
+
+/* What a plot or a person vouches for is safe, and what exceeds the search's room. */
+static void add_owner(const struct step *step, struct owners_list *list, uint32_t track_id)
+{
+    const unsigned row = find_track(step->tracker, track_id);
+    for (unsigned i = 0; i < list->num; i++) {
+        if (list->known[i].track_id == track_id) {
+            return;
+        }
+    }
+    if (row < RHO_MAX_TRACKS && list->num < 2 * RHO_MAX_PASSIVE_TRACKS) {
+        const struct rho_track *track = &step->tracker->tracks[row];
+        const float *state = track->kalman.state;
+        const float dt_s = rho_seconds_between(track->time_us, step->look.time_us);
+        struct rho_passive_known *known = &list->known[list->num++];
+        *known = (struct rho_passive_known){.track_id = track_id,
+                                            .x_m = state[0] + dt_s * state[3],
+                                            .y_m = state[1] + dt_s * state[4],
+                                            .vx_mps = state[3],
+                                            .vy_mps = state[4]};
+        known->is_safe = track->plot_sigma_m > 0.0f || track->is_operators ||
+                         rho_track_is_frozen(track) ||
+                         list->num_challenged == RHO_MAX_PASSIVE_TRACKS;
+        list->num_challenged += !known->is_safe;
+    }
+}
+
+static void list_owners(const struct step *step, struct owners_list *list)
+{
+    const struct rho_batch *batch = &step->passive->batch;
+    list->num = list->num_challenged = 0;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
+                if (batch->bearings[k][s][i].owner.track_id != 0) {
+                    add_owner(step, list, batch->bearings[k][s][i].owner.track_id);
+                }
+            }
+        }
+    }
+}
+
+/* Number of a found track's bearings that another track took. */
+static unsigned count_shared(const struct rho_batch *batch, const struct rho_passive_track *found,
+                             uint32_t track_id)
+{
+    unsigned shared = 0;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            const unsigned place = found->claim[k][s];
+            shared += place > 0 && batch->bearings[k][s][place - 1u].owner.track_id == track_id;
+        }
+    }
+    return shared;
+}
+
+/*
+ * Ends the beaten tracks whose bearings a found one takes. Returns the identity of the one that it
+ * shares most with, for the found one to go on under; 0: none.
+ */
+static uint32_t end_beaten_tracks(struct step *step, struct owners_list *list,
+                                  const struct rho_passive_track *found)
+{
+    uint32_t heir_id = 0;
+    unsigned most = 0;
+    for (unsigned i = 0; i < list->num; i++) {
+        const struct rho_passive_known *known = &list->known[i];
+        const unsigned shared = known->is_beaten
+                                    ? count_shared(&step->passive->batch, found, known->track_id)
+                                    : 0;
+        if (shared > most) {
+            most = shared;
+            heir_id = known->track_id;
+        }
+    }
+    for (unsigned i = 0; i < list->num; i++) {
+        struct rho_passive_known *known = &list->known[i];
+        if (known->is_beaten && known->track_id != heir_id &&
+            count_shared(&step->passive->batch, found, known->track_id) > 0) {
+            rho_step_end_track(step, find_track(step->tracker, known->track_id));
+            known->is_beaten = 0;
+        }
+        known->is_beaten &= known->track_id != heir_id;
+    }
+    return heir_id;
+}
+
+/* Starts a track, or begins the one of this identity anew. */
+static int admit_found_track(struct step *step, uint32_t heir_id, const struct rho_kalman *estimate,
+                             int32_t sensor_id, const struct rho_passive_track *found)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const unsigned row = heir_id != 0 ? find_track(tracker, heir_id) : RHO_MAX_TRACKS;
+    const uint32_t track_id = heir_id != 0 ? heir_id : tracker->next_track_id;
+    struct rho_track track;
+    if (row < RHO_MAX_TRACKS) {
+        rho_track_free_hypotheses(&tracker->tracks[row], &step->look.model);
+    }
+    if (rho_track_start_estimate(&track, track_id, estimate, step->look.time_us, sensor_id,
+                                 (uint16_t)rho_count_bits(found->scans), &step->look.model,
+                                 found->score_mnat) != RHO_OK) {
+        if (row < RHO_MAX_TRACKS) {
+            rho_step_end_track(step, row);
+        }
+        return 0;
+    }
+    if (row == RHO_MAX_TRACKS) {
+        return rho_step_admit(step, &track, step->passive->start_mnat);
+    }
+    rho_step_restart(step, row, &track, step->passive->start_mnat);
+    return 1;
+}
+
+static void start_found_track(struct step *step, struct owners_list *list,
+                              const struct rho_passive_track *found)
 {
     static const uint8_t place[4] = {0, 1, 3, 4}; /* of x, y, vx and vy in a state of three axes */
     struct rho_tracker *tracker = step->tracker;
     const struct rho_batch *batch = &step->passive->batch;
     const float state[4] = {found->x_m, found->y_m, found->vx_mps, found->vy_mps};
     struct rho_kalman estimate;
-    struct rho_track track;
     rho_kalman_init(&estimate);
     for (int i = 0; i < 4; i++) {
         estimate.state[place[i]] = state[i];
@@ -100,29 +236,18 @@ static void start_found_track(struct step *step, const struct rho_passive_track 
             sensor_id = found->claim[k][s] ? batch->sensors[s].sensor_id : sensor_id;
         }
     }
-    if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->look.time_us,
-                                 sensor_id, (uint16_t)rho_count_bits(found->scans),
-                                 &step->look.model, found->score_mnat) == RHO_OK &&
-        rho_step_admit(step, &track, step->passive->start_mnat)) {
-        tracker->counters.plots_initiated =
-            rho_count(tracker->counters.plots_initiated, rho_passive_consume(step->passive, found));
+    const uint32_t heir_id = end_beaten_tracks(step, list, found);
+    const uint32_t track_id = heir_id != 0 ? heir_id : tracker->next_track_id;
+    if (admit_found_track(step, heir_id, &estimate, sensor_id, found)) {
+        const uint32_t given = rho_passive_give(step->passive, found, track_id);
+        tracker->counters.plots_initiated = rho_count(tracker->counters.plots_initiated, given);
     }
 }
 
-/*
- * Searches a full batch only, once a row: in a shorter one ghosts may still move on straight lines.
- */
-void rho_step_initiate_bearings(struct step *step)
+/* Ghosts stay in the batch: the other sensors may have missed the target of such a bearing. */
+static void mark_ghosts(const struct step *step)
 {
-    struct rho_tracker_counters *counters = &step->tracker->counters;
-    struct rho_passive *passive = step->passive;
     const struct rho_look *look = &step->look;
-    if (!RHO_SEARCHES || !passive) {
-        rho_step_replace_fates(look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
-        return;
-    }
-    push_frame(look, step->frame, passive);
-    /* ghosts stay in the batch: the other sensors may have missed the target of such a bearing */
     uint32_t first = 0;
     for (uint32_t k = 0; k < step->frame->num_scans; k++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[k];
@@ -136,11 +261,27 @@ void rho_step_initiate_bearings(struct step *step)
         }
         first = rho_count(first, scan->num_bearings);
     }
-    counters->plots_clutter = rho_count(counters->plots_clutter, passive->batch.num_left);
-    if (passive->batch.num_scans < passive->batch.scans_max || !passive->batch.is_due) {
+}
+
+/* Searches once a row, with all that is followed challenged. */
+void rho_step_initiate_bearings(struct step *step, const struct frame_owners *owners)
+{
+    struct rho_tracker_counters *counters = &step->tracker->counters;
+    struct rho_passive *passive = step->passive;
+    struct owners_list list;
+    if (!RHO_SEARCHES || !passive) {
+        rho_step_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
         return;
     }
-    (void)!rho_passive_search(passive);
+    push_frame(&step->look, step->frame, owners, passive);
+    mark_ghosts(step);
+    counters->plots_clutter = rho_count(counters->plots_clutter, passive->batch.num_left);
+    passive->num_tracks = 0;
+    if (!passive->batch.is_due) {
+        return;
+    }
+    list_owners(step, &list);
+    (void)!rho_passive_challenge(passive, list.known, list.num);
     counters->candidates_dropped =
         rho_count(counters->candidates_dropped, passive->work.candidates_dropped);
     for (unsigned i = 0; i < passive->num_tracks; i++) {
@@ -149,7 +290,7 @@ void rho_step_initiate_bearings(struct step *step)
         const int is_recent = (unsigned)found->scans >> (passive->batch.num_scans - 2u) != 0;
         if (is_recent && found->score_mnat >= passive->start_mnat &&
             found->margin_mnat >= MARGIN_MIN_MNAT) {
-            start_found_track(step, found);
+            start_found_track(step, &list, found);
         }
     }
 }

@@ -135,6 +135,7 @@ struct bearing_mix {
     float seeing;                    /* share of targets that no other track's bearing covers */
     float gain_nat; /* ln of the likelihood of them all, or a miss, over that of clutter */
     float share;    /* information of the mix, over that of a certain bearing */
+    float density_nat; /* ln of the density of the one of most weight */
 };
 
 /* Probability that a bearing is not the target's of the track that it was assigned. */
@@ -209,6 +210,7 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         total += weight * rho_exp(at.log_det);
         if (weight > best) {
             best = weight;
+            mix.density_nat = -0.5f * (RHO_LOG_TWO_PI + at.log_det + at.distance2);
             mix.as_one.row = (int16_t)i;
             mix.as_one.time_us = time_us;
         }
@@ -251,7 +253,7 @@ static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
 
 /* A look that tells next to nothing of a track leaves its estimate alone; its score counts all. */
 static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look,
-                               struct rho_tracker_sensor *own)
+                               struct rho_tracker_sensor *own, struct rho_batch_owner *owners)
 {
     float unclaimed = 0.0f;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
@@ -273,6 +275,9 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         } else if (mix.as_one.row >= 0) {
             look->fates[mix.as_one.row] = RHO_FATE_CLAIMED;
+            if (owners) {
+                owners[mix.as_one.row] = (struct rho_batch_owner){track->track_id, mix.density_nat};
+            }
         }
     }
     for (uint32_t i = 0; i < look->num_gated; i++) {
@@ -284,8 +289,11 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
     rho_life_weigh(tracker, look);
 }
 
-/* Claims and updates look by look: each sensor meets the gates that those before it left. */
-void rho_step_take_frame(struct step *step)
+/*
+ * Claims and updates look by look: each sensor meets the gates that those before it left.
+ * *owners: gets the tracks of the bearings, where it has room for them.
+ */
+void rho_step_take_frame(struct step *step, struct frame_owners *owners)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_look *look = &step->look;
@@ -308,7 +316,7 @@ void rho_step_take_frame(struct step *step)
         }
         rho_score_solve(tracker);
         learn_pd(tracker, look, own);
-        update_by_bearings(tracker, look, own);
+        update_by_bearings(tracker, look, own, i < RHO_MAX_PASSIVE_SENSORS ? owners->of[i] : 0);
         first = rho_count(first, scan->num_bearings);
         look->num_gated = num_gated;
         look->fates = fates;

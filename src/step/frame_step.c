@@ -3,7 +3,7 @@
  * frame_step: a frame of bearings goes through the phases of a step, each sensor's bearings as a
  * look.
  */
-#include "phases.h"
+#include "batch_frame.h"
 #include "rhotrack/detail/angle.h"
 
 static enum rho_status check_frame(const struct rho_tracker *tracker,
@@ -55,12 +55,13 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
         for (uint32_t i = 0; i < frame->num_scans; i++) {
             step.look.num_inputs = rho_count(step.look.num_inputs, frame->scans[i].num_bearings);
         }
+        struct frame_owners owners = {.of = {{{.track_id = 0}}}};
         if (rho_step_begin(&step)) {
             rho_step_open_frame(&step.look);
             rho_step_predict(&step);
-            rho_step_take_frame(&step);
+            rho_step_take_frame(&step, &owners);
             rho_step_age(&step);
-            rho_step_initiate_bearings(&step);
+            rho_step_initiate_bearings(&step, &owners);
             rho_step_merge_estimates(&step);
             rho_work_record(tracker, &step.work, report);
         }

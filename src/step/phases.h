@@ -38,7 +38,8 @@ void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct 
 /* bearing_looks.c: opens a frame of bearings, of which no sensor's look is open yet */
 void rho_step_open_frame(struct rho_look *look);
 /* Claims and updates by each sensor's bearings, and counts the misses of the frame. */
-void rho_step_take_frame(struct step *step);
+struct frame_owners;
+void rho_step_take_frame(struct step *step, struct frame_owners *owners);
 
 /* age.c: counts misses, confirms and ends tracks */
 void rho_step_age(struct step *step);
@@ -46,7 +47,7 @@ void rho_step_age(struct step *step);
 /* initiate.c: tracks start from unclaimed plots; the clutter map and counts are updated */
 void rho_step_initiate(struct step *step);
 /* bearing_initiation.c: tracks start from unclaimed bearings */
-void rho_step_initiate_bearings(struct step *step);
+void rho_step_initiate_bearings(struct step *step, const struct frame_owners *owners);
 
 /* settle.c: brings the tracks to the time that the report has */
 void rho_step_settle(struct step *step);
@@ -89,6 +90,9 @@ void rho_step_end_track(struct step *step, unsigned row);
  * track has ended. Of a full tracker the tentative track that exists least ends for a likelier one.
  */
 int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat);
+/* Puts a track, begun anew, into the place of the one with its identity. */
+void rho_step_restart(struct step *step, unsigned row, struct rho_track *track,
+                      int32_t confirm_mnat);
 /*
  * Makes *step from the newest step and its report, for changes of tracks between two steps. STATE:
  * the tracker has made no step, or the report is of another one.

@@ -56,6 +56,28 @@ void rho_step_end_track(struct step *step, unsigned row)
     }
 }
 
+/* A new track's life begins: confirmed, or tentative, by its score. */
+static void begin_life(struct step *step, struct rho_track *track, int32_t confirm_mnat)
+{
+    if (RHO_MAX_ECHOES > 0) {
+        rho_echoes_store_start(track);
+    }
+    if (RHO_SECTORS) {
+        track->ahead_us = track->time_us;
+    }
+    track->seen_us = step->look.time_us;
+    rho_life_begin(track, step->look.time_us, confirm_mnat);
+    rho_life_apply(step, track, confirm_mnat);
+}
+
+void rho_step_restart(struct step *step, unsigned row, struct rho_track *track,
+                      int32_t confirm_mnat)
+{
+    track->was_confirmed = step->tracker->tracks[row].was_confirmed;
+    begin_life(step, track, confirm_mnat);
+    step->tracker->tracks[row] = *track;
+}
+
 int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -69,15 +91,7 @@ int rho_step_admit(struct step *step, struct rho_track *track, int32_t confirm_m
         }
         rho_step_end_track(step, lowest);
     }
-    if (RHO_MAX_ECHOES > 0) {
-        rho_echoes_store_start(track);
-    }
-    if (RHO_SECTORS) {
-        track->ahead_us = track->time_us;
-    }
-    track->seen_us = step->look.time_us;
-    rho_life_begin(track, step->look.time_us, confirm_mnat);
-    rho_life_apply(step, track, confirm_mnat);
+    begin_life(step, track, confirm_mnat);
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
     tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);

@@ -22,7 +22,7 @@
 RHO_BEGIN_C
 
 /* fewest scans that are searched for tracks: two tell a velocity, and two more test it */
-#define RHO_BATCH_SCANS_MIN 4u
+#define RHO_BATCH_SCANS_MIN 3u
 
 struct rho_batch_sensor {
     int32_t sensor_id;
@@ -35,10 +35,17 @@ struct rho_batch_look {
     float x_m, y_m;
 };
 
+/* The track that a bearing was taken for, and ln of its density per radian where it was expected. */
+struct rho_batch_owner {
+    uint32_t track_id; /* 0: no track's */
+    float density_nat;
+};
+
 /* One bearing held in the batch, with its direction as cosine and sine. */
 struct rho_batch_bearing {
     float cosine, sine, bearing_rad;
     float sigma_rad;
+    struct rho_batch_owner owner;
 };
 
 struct rho_batch {
@@ -47,7 +54,7 @@ struct rho_batch {
     uint8_t is_whole;  /* 1: the newest row has a look of each sensor, or a frame of several */
     uint8_t is_due;    /* 1: the last push made a row whole, or ended one that was not */
     float apart_max_m; /* largest distance of two sensors that is accepted */
-    uint32_t num_left; /* number of bearings that the last push dropped with older looks */
+    uint32_t num_left; /* number of bearings without an owner that the last push dropped */
     int64_t newest_us; /* time of the newest frame */
     struct rho_batch_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
     /* times of the first looks of the rows, oldest first */
@@ -83,6 +90,7 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  *   frame  the time of a scan is taken for all its bearings; their offsets are ignored
  *   fates  one for each bearing, in the order of the frame's scans; bearings with HELD are stored,
  *          or get INVALID (rho_bearing_is_valid) or NO_ROOM (beyond RHO_MAX_BEARINGS)
+ *   owners NULL, or the tracks of the bearings in the same order: those with CLAIMED are stored too
  * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than
  * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor farther than apart_max_m
  * from another, or whose position is not a coordinate, a sector beyond one turn either way, a scan
@@ -90,19 +98,8 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  * the batch by a row. Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
-                                              const struct rho_frame *frame, uint8_t *fates);
-
-/*
- * Removes the bearings that a track claims from the batch. Returns the number of bearings removed.
- *   claim  for each scan and sensor the index of a bearing in the batch, from 1; 0: no bearing
- * Indices stay valid until rho_batch_compact, so that bearings of several tracks can be removed;
- * until then a removed bearing has a sigma_rad of 0. Cost: scans times sensors.
- */
-uint32_t rho_batch_remove(struct rho_batch *batch,
-                          const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
-
-/* Closes the gaps that rho_batch_remove left among the bearings. Cost: all bearings held. */
-void rho_batch_compact(struct rho_batch *batch);
+                                              const struct rho_frame *frame, uint8_t *fates,
+                                              const struct rho_batch_owner *owners);
 
 /*
  * True if the object is valid, whatever its bytes come from (a snapshot, memory that outlived a

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * known_tracks: the tracks that are followed already, as candidates beside new ones. A known track
+ * has the better of two scores: of the bearings that it took, where it expected them, and of a fit
+ * to all bearings from its own state. So a track that turns is not blamed for it.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+#include "policy.h"
+#include "rhotrack/types.h"
+
+/* The known track with this identity; NULL: none. */
+static struct rho_passive_known *find_known(struct rho_passive_known *known, uint32_t num_known,
+                                            uint32_t track_id)
+{
+    for (uint32_t i = 0; i < num_known; i++) {
+        if (known[i].track_id == track_id) {
+            return &known[i];
+        }
+    }
+    return 0;
+}
+
+void rho_passive_release(struct rho_passive *passive, struct rho_passive_known *known,
+                         uint32_t num_known)
+{
+    struct rho_batch *batch = &passive->batch;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
+                struct rho_batch_owner *owner = &batch->bearings[k][s][i].owner;
+                if (!find_known(known, num_known, owner->track_id)) {
+                    owner->track_id = 0;
+                }
+            }
+        }
+    }
+}
+
+void rho_passive_block_bearings(struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    const struct rho_batch *batch = &passive->batch;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
+                const uint32_t track_id = batch->bearings[k][s][i].owner.track_id;
+                const struct rho_passive_known *owner =
+                    find_known(search->known, search->num_known, track_id);
+                passive->is_claimed[k][s][i] = track_id == 0 || (owner && !owner->is_safe)
+                                                   ? RHO_PASSIVE_FREE
+                                                   : RHO_PASSIVE_BLOCKED;
+            }
+        }
+    }
+}
+
+/* The track with the bearings that it took; looks of sensors that did not see it are misses. */
+static void claim_taken(const struct rho_passive_search *search, uint32_t track_id,
+                        struct rho_passive_candidate *candidate)
+{
+    const struct rho_batch *batch = &search->passive->batch;
+    memset(candidate->claim, 0, sizeof candidate->claim);
+    candidate->hits = 0;
+    candidate->score_nat = 0.0f;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            float gain_nat = batch->was_seen[k][s] &&
+                                     rho_passive_is_in_view(search, k, s, candidate->state_m)
+                                 ? search->miss_nat
+                                 : 0.0f;
+            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
+                const struct rho_batch_owner *owner = &batch->bearings[k][s][i].owner;
+                if (owner->track_id == track_id) {
+                    candidate->claim[k][s] = (uint8_t)(i + 1u);
+                    candidate->hits++;
+                    gain_nat = search->hit_nat + owner->density_nat;
+                }
+            }
+            candidate->score_nat += gain_nat;
+        }
+    }
+}
+
+void rho_passive_list_known(struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    for (uint32_t i = 0; i < search->num_known; i++) {
+        const struct rho_passive_known *known = &search->known[i];
+        struct rho_passive_candidate taken, fitted;
+        float chi2;
+        if (known->is_safe) {
+            continue;
+        }
+        taken.state_m[RHO_PASSIVE_DX] = known->vx_mps * search->half_s;
+        taken.state_m[RHO_PASSIVE_DY] = known->vy_mps * search->half_s;
+        taken.state_m[RHO_PASSIVE_X] =
+            known->x_m - search->middle_x_m - taken.state_m[RHO_PASSIVE_DX];
+        taken.state_m[RHO_PASSIVE_Y] =
+            known->y_m - search->middle_y_m - taken.state_m[RHO_PASSIVE_DY];
+        memcpy(fitted.state_m, taken.state_m, sizeof fitted.state_m);
+        claim_taken(search, known->track_id, &taken);
+        rho_passive_fit_nearest(search, fitted.state_m, 1);
+        rho_passive_claim_nearest(search, 1, &fitted);
+        const int is_better = rho_passive_score_claimed(search, &fitted, &chi2) &&
+                              fitted.score_nat > taken.score_nat;
+        struct rho_passive_candidate *candidate = &passive->candidates[passive->num_candidates++];
+        *candidate = is_better ? fitted : taken;
+        candidate->score_nat += KNOWN_NAT;
+        candidate->known = (uint16_t)(i + 1u);
+    }
+}
