@@ -107,9 +107,13 @@ void rho_passive_choose(const struct rho_passive_search *search, struct rho_pass
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which)
 {
     const struct rho_passive *passive = choice->search->passive;
-    float least = SAME_TARGET_SHARE * (float)passive->candidates[which].hits;
+    const struct rho_passive_candidate *target = &passive->candidates[which];
+    const struct rho_passive_information known = rho_passive_information(choice->search, target);
+    float least = SAME_TARGET_SHARE * (float)target->hits;
     for (unsigned i = 0; i < choice->count; i++) {
-        if (i == which || (float)passive->shared[which][i] >= least) {
+        if (i == which || (float)passive->shared[which][i] >= least ||
+            rho_passive_distance2(&known, target->state_m, passive->candidates[i].state_m) <
+                SAME_TARGET_SIGMAS * SAME_TARGET_SIGMAS) {
             choice->is_out[i] = 1;
             if (choice->is_in[i]) {
                 toggle_candidate(choice, i);

@@ -150,13 +150,14 @@ static enum rho_status search_batch(struct rho_passive *passive, struct rho_pass
     if (passive->batch.num_scans < RHO_BATCH_SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
     }
-    rho_passive_prepare(&search);
     rho_passive_block_bearings(&search);
+    rho_passive_prepare(&search);
     rho_passive_list_known(&search);
 
     /* first pass: only crossings that a third sensor supports */
     find_candidates(&search, FIRST_VOTES_SHARE);
     rho_passive_claim_best_set(&search);
+    rho_passive_set_density(&search);
     rho_passive_set_start_score(&search);
 
     /* second pass: all crossings of the bearings that no track of the first pass has claimed */

@@ -182,6 +182,53 @@ static float score_of_hit(const struct rho_passive_search *search,
     return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * (RHO_LOG_TWO_PI + chi2);
 }
 
+struct rho_passive_information
+rho_passive_information(const struct rho_passive_search *search,
+                        const struct rho_passive_candidate *track)
+{
+    const struct equations equations = equations_of_claims(search, track);
+    struct rho_passive_information information;
+    memcpy(information.a, equations.a, sizeof information.a);
+    return information;
+}
+
+float rho_passive_distance2(const struct rho_passive_information *information, const float a_m[N],
+                            const float b_m[N])
+{
+    float sum = 0.0f;
+    for (int i = 0; i < N; i++) {
+        const float off_m = a_m[i] - b_m[i];
+        for (int j = 0; j <= i; j++) {
+            const float twice = i == j ? 1.0f : 2.0f;
+            sum += twice * information->a[RHO_AT(i, j)] * off_m * (a_m[j] - b_m[j]);
+        }
+    }
+    return sum;
+}
+
+/*
+ * ln of the share of places and speeds, as targets have them before a bearing is seen, that the
+ * claimed bearings leave (Laplace's approximation; src/DESIGN.md): with it the likelihood ratio at
+ * the fitted state becomes that of a target anywhere.
+ */
+static float score_of_prior(const struct rho_passive_search *search,
+                            const struct rho_passive_candidate *track)
+{
+    const float place_m = 0.5f * search->passive->config.range_max_m;
+    const float way_m = 0.5f * search->passive->config.v_max_mps * search->half_s;
+    const struct equations equations = equations_of_claims(search, track);
+    float factor[RHO_TRIANGLE(N)], score_nat = 0.0f;
+    if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
+        return SINGULAR_NAT;
+    }
+    for (int i = 0; i < N; i++) {
+        const float sigma_m = i < RHO_PASSIVE_DX ? place_m : way_m;
+        score_nat -= rho_log(factor[RHO_AT(i, i)] * sigma_m) +
+                     0.5f * rho_square(track->state_m[i] / sigma_m);
+    }
+    return score_nat;
+}
+
 int rho_passive_score_claimed(const struct rho_passive_search *search,
                               struct rho_passive_candidate *track, float *chi2)
 {
@@ -205,6 +252,7 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
             }
         }
     }
+    track->score_nat += score_of_prior(search, track);
     return is_track(search, track, *chi2, out_of_view);
 }
 

@@ -11,7 +11,7 @@ void rho_passive_prepare(struct rho_passive_search *search)
 {
     const struct rho_batch *batch = &search->passive->batch;
     const struct rho_passive_config *config = &search->passive->config;
-    float total = 0.0f, free = 0.0f, log_sigmas = 0.0f, x_m = 0.0f, y_m = 0.0f;
+    float total = 0.0f, log_sigmas = 0.0f, x_m = 0.0f, y_m = 0.0f;
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             search->looks += batch->was_seen[k][s];
@@ -37,18 +37,13 @@ void rho_passive_prepare(struct rho_passive_search *search)
                 float least_rad = sigma_rad / SIGMA_RATIO_MAX;
                 log_sigmas += rho_log(sigma_rad);
                 total += 1.0f;
-                free += batch->bearings[k][s][i].owner.track_id == 0 ? 1.0f : 0.0f;
                 search->sigma_min_rad = rho_larger(least_rad, search->sigma_min_rad);
             }
         }
     }
-    /* false bearings are uniform in the field of view, with the density of those without a track */
-    float density = free / looks / config->field_of_view_rad;
-    density = density > DENSITY_MIN_PER_RAD ? density : DENSITY_MIN_PER_RAD;
-    search->hit_nat = rho_log(config->pd / density);
+    search->mean_log_sigma = log_sigmas / rho_larger(total, 1.0f);
     search->miss_nat = rho_log(1.0f - config->pd);
-    search->share_nat =
-        search->hit_nat - search->miss_nat - 0.5f * RHO_LOG_TWO_PI - log_sigmas / rho_larger(total, 1.0f);
+    rho_passive_set_density(search);
     search->theta_cells = (uint16_t)(RHO_PI / config->theta_cell_rad + 0.5f);
     for (unsigned i = 0; i < search->theta_cells; i++) {
         float theta_rad = ((float)i + 0.5f) * RHO_PI / (float)search->theta_cells;
@@ -58,20 +53,42 @@ void rho_passive_prepare(struct rho_passive_search *search)
     rho_passive_mark_directions(search);
 }
 
+/* False bearings are uniform in the field of view, as many as no track claims. */
+void rho_passive_set_density(struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    const struct rho_batch *batch = &passive->batch;
+    const float hit_nat = search->hit_nat;
+    float unclaimed = 0.0f;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
+                unclaimed += batch->bearings[k][s][i].owner.track_id == 0 &&
+                                     passive->is_claimed[k][s][i] == RHO_PASSIVE_FREE
+                                 ? 1.0f
+                                 : 0.0f;
+            }
+        }
+    }
+    const float looks = rho_larger((float)search->looks, 1.0f);
+    search->hit_nat = rho_log(passive->config.pd * passive->config.field_of_view_rad /
+                              rho_larger(unclaimed / looks, FALSE_MIN));
+    search->share_nat =
+        search->hit_nat - search->miss_nat - 0.5f * RHO_LOG_TWO_PI - search->mean_log_sigma;
+    for (unsigned i = 0; i < passive->num_candidates; i++) {
+        passive->candidates[i].score_nat +=
+            (float)passive->candidates[i].hits * (search->hit_nat - hit_nat);
+    }
+}
+
 /*
- * Two crossings determine a state, which always fits their four bearings. If all bearings are
- * false, the likelihood ratio of the other bearings has the mean 1, so that it reaches e^s in at
- * most one of e^s pairs of crossings. Hence the start score is the score of four bearings plus ln
- * (pairs of crossings / false tracks allowed in a scan interval).
+ * The likelihood ratio of a target anywhere has the mean 1 where all bearings are false, so that it
+ * reaches e^s in at most one of e^s intervals (Markov's inequality).
  */
 void rho_passive_set_start_score(const struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    float points = (float)(passive->work.crossings - passive->work.ghosts);
-    float pairs = 0.5f * points * points + 1.0f;
     float interval_h = 2.0f * search->half_s / (float)(passive->batch.num_scans - 1) / 3600.0f;
     float allowed = passive->config.false_tracks_per_hour * interval_h;
-    float start_nat =
-        4.0f * (search->share_nat + search->miss_nat) + rho_log(pairs) - rho_log(allowed);
-    passive->start_mnat = (int32_t)(1000.0f * start_nat);
+    passive->start_mnat = (int32_t)(-1000.0f * rho_log(allowed));
 }

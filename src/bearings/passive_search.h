@@ -47,6 +47,7 @@ struct rho_passive_search {
     float miss_nat;
     float share_nat;     /* penalty of a choice for each bearing that two chosen candidates claim */
     float sigma_min_rad; /* floor of the bearings' sigmas */
+    float mean_log_sigma;
     unsigned looks;      /* number of reports: pairs of scan and sensor */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
@@ -61,7 +62,9 @@ struct rho_passive_search {
 
 /* Computes the values of *search that follow from the batch: geometry, times, likelihood ratios. */
 void rho_passive_prepare(struct rho_passive_search *search);
-/* Sets passive->start_mnat, for the allowed rate of false tracks, by the first pass' crossings. */
+/* Sets the scores of bearings, and of the candidates, by the density of unclaimed bearings. */
+void rho_passive_set_density(struct rho_passive_search *search);
+/* Sets passive->start_mnat, for the allowed rate of false tracks. */
 void rho_passive_set_start_score(const struct rho_passive_search *search);
 /* Bearings of owners that are none of the known tracks get none. */
 void rho_passive_release(struct rho_passive *passive, struct rho_passive_known *known,
@@ -172,6 +175,17 @@ void rho_passive_step_to_claims(const struct rho_passive_search *search,
 /* Claims for a track's state the nearest bearing of each look within 3.5 sigmas. */
 void rho_passive_claim_nearest(const struct rho_passive_search *search, int include_claimed,
                                struct rho_passive_candidate *track);
+/* The inverse of a candidate's covariance, lower triangle. */
+struct rho_passive_information {
+    float a[10];
+};
+struct rho_passive_information
+rho_passive_information(const struct rho_passive_search *search,
+                        const struct rho_passive_candidate *track);
+/* Squared distance of two states in sigmas. */
+float rho_passive_distance2(const struct rho_passive_information *information,
+                            const float a_m[RHO_PASSIVE_STATES],
+                            const float b_m[RHO_PASSIVE_STATES]);
 /* Whether the state's position was within the sensor's sector in the scan. */
 int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned scan, unsigned sensor,
                            const float state_m[RHO_PASSIVE_STATES]);
@@ -223,7 +237,7 @@ struct rho_passive_choice {
 
 /* Finds the choice of candidates with the highest total, by greedy search from several starts. */
 void rho_passive_choose(const struct rho_passive_search *search, struct rho_passive_choice *best);
-/* Excludes from a choice a candidate and all other candidates of the same target. */
+/* Excludes from a choice a candidate and all others that are of its target, or where it is. */
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which);
 /* Adds a candidate (which = count: none), then further candidates while the total grows. */
 void rho_passive_add_gaining(struct rho_passive_choice *choice, unsigned which);

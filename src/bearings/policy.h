@@ -65,6 +65,12 @@
  */
 #define SAME_TARGET_SHARE 0.7f
 /*
+ * Distance at which another candidate is where a target is: it makes the target no less certain.
+ * Half: the choice of bearings of targets side by side keeps both from starting. Twice: ghosts near
+ * a target count as it.
+ */
+#define SAME_TARGET_SIGMAS 5.0f
+/*
  * Share at which the lower of two candidates is dropped as a duplicate. Half: targets side by side
  * lose theirs. Twice: no candidate is dropped, and the list fills.
  */
@@ -120,6 +126,9 @@
  */
 #define POSITION_MAX_RANGES 2.0f
 
+/* Score of a fit that has no covariance: none. Half or twice: no less than none. */
+#define SINGULAR_NAT -1.0e6f
+
 /* joint_fit.c */
 
 /* Rounds of assignment and fit. Half: assignments of the start stay. Twice: hardly any change. */
@@ -166,10 +175,10 @@
 /* passive_prepare.c */
 
 /*
- * Floor of the density of false bearings, so that an empty sky does not make every bearing certain.
- * Half or twice: 0.7 nat more or less a bearing where there are few.
+ * Floor of the number of false bearings a look, so that an empty sky does not make every bearing
+ * certain. Half or twice: 0.7 nat more or less a bearing where there are few.
  */
-#define DENSITY_MIN_PER_RAD 0.3f
+#define FALSE_MIN 0.3f
 /*
  * Largest ratio of sigmas: float32 has too few digits for the normal equations of very different
  * bearings. Half: the most exact bearings count a quarter. Twice: two bits more are lost.
