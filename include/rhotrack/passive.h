@@ -101,12 +101,12 @@ struct rho_passive_point {
     uint8_t bearing[2]; /* indices of its bearings in their looks */
 };
 
-/* A pair of crossings that was fitted, as indices in points[]. */
-struct rho_passive_fitted {
-    uint16_t a, b; /* indices of the crossings; equal: an empty entry */
-    /* number of candidates removed before the fit; UINT16_MAX: the fit did not give a track */
-    uint16_t when;
+/* A crossing's partner: both together are a hypothesis of constant velocity. */
+struct rho_passive_partner {
+    float agreement; /* of the bearings with it; 0: none, or used */
+    uint16_t point;  /* index of the later crossing in points[] */
 };
+#define RHO_PASSIVE_PARTNERS 2u /* best ones of each crossing that are kept */
 
 /* A track that is followed already, for rho_passive_challenge. */
 struct rho_passive_known {
@@ -160,10 +160,8 @@ struct rho_passive {
      * around |x| + |y| = 1 from south
      */
     uint32_t directions[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS / 32];
-    /* Hough plane of the crossings: a bit in a cell for each scan that voted */
-    uint16_t cells[RHO_PASSIVE_THETA_CELLS][RHO_PASSIVE_RHO_CELLS];
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
-    struct rho_passive_fitted fitted[RHO_PASSIVE_PAIRS];
+    struct rho_passive_partner partners[RHO_MAX_PASSIVE_POINTS][RHO_PASSIVE_PARTNERS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
     /* number of bearings that two candidates both claim */
     uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES];

@@ -52,8 +52,6 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
     for (unsigned i = passive->num_candidates; i > 0; i--) {
         if (list[i - 1u].known == 0 && shares_most_of(search, &list[i - 1u], &candidate)) {
             list[i - 1u] = list[--passive->num_candidates];
-            /* cannot overflow: at most one removal for each of 2 passes x 96 lines x 20 fits */
-            search->candidates_removed++;
         }
     }
     if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
@@ -69,7 +67,6 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
                      : lowest;
     }
     passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
-    search->candidates_removed++;
     if (candidate.score_nat > list[lowest].score_nat) {
         list[lowest] = candidate;
     }

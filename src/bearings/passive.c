@@ -115,29 +115,11 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
     return given;
 }
 
-/* A pass over the unclaimed bearings: crossings, the lines that they vote for, candidates. */
-static void find_candidates(struct rho_passive_search *search, float votes_share)
+/* A pass over the unclaimed bearings: crossings, and candidates through two of them. */
+static void find_candidates(struct rho_passive_search *search)
 {
-    struct rho_passive_line line;
-    const struct rho_batch *batch = &search->passive->batch;
-    unsigned scans = 0; /* with reports of two sensors: others have no crossings that can vote */
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        unsigned seen = 0;
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            seen += batch->was_seen[k][s];
-        }
-        scans += seen >= 2;
-    }
-    float votes = votes_share * (float)scans;
-    unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
-    votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_find_crossings(search);
-    rho_passive_vote_lines(search);
-    for (unsigned i = 0; i < LINES_MAX && rho_passive_take_best_line(search, votes_min, &line);
-         i++) {
-        search->passive->work.peaks = rho_count(search->passive->work.peaks, 1);
-        rho_passive_fit_line_pairs(search, &line);
-    }
+    rho_passive_fit_pairs(search);
 }
 
 static enum rho_status search_batch(struct rho_passive *passive, struct rho_passive_known *known,
@@ -155,14 +137,14 @@ static enum rho_status search_batch(struct rho_passive *passive, struct rho_pass
     rho_passive_list_known(&search);
 
     /* first pass: only crossings that a third sensor supports */
-    find_candidates(&search, FIRST_VOTES_SHARE);
+    find_candidates(&search);
     rho_passive_claim_best_set(&search);
     rho_passive_set_density(&search);
     rho_passive_set_start_score(&search);
 
     /* second pass: all crossings of the bearings that no track of the first pass has claimed */
     search.is_second = 1;
-    find_candidates(&search, SECOND_VOTES_SHARE);
+    find_candidates(&search);
     rho_passive_block_bearings(&search);
 
     /* the final selection is from the candidates of both passes */

@@ -190,7 +190,6 @@ static void cross_pair(struct rho_passive_search *search, unsigned a, unsigned b
 void rho_passive_find_crossings(struct rho_passive_search *search)
 {
     search->passive->num_points = 0;
-    memset(search->passive->fitted, 0, sizeof search->passive->fitted);
     for (unsigned a = 0; a + 1u < search->passive->batch.num_sensors; a++) {
         for (unsigned b = a + 1u; b < search->passive->batch.num_sensors; b++) {
             cross_pair(search, a, b);

@@ -44,12 +44,6 @@ void rho_passive_prepare(struct rho_passive_search *search)
     search->mean_log_sigma = log_sigmas / rho_larger(total, 1.0f);
     search->miss_nat = rho_log(1.0f - config->pd);
     rho_passive_set_density(search);
-    search->theta_cells = (uint16_t)(RHO_PI / config->theta_cell_rad + 0.5f);
-    for (unsigned i = 0; i < search->theta_cells; i++) {
-        float theta_rad = ((float)i + 0.5f) * RHO_PI / (float)search->theta_cells;
-        search->cosine[i] = rho_cos(theta_rad);
-        search->sine[i] = rho_sin(theta_rad);
-    }
     rho_passive_mark_directions(search);
 }
 

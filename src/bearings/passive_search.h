@@ -11,9 +11,8 @@
  * - passive_prepare.c: geometry, times, likelihood ratios
  * - known_tracks.c: the tracks that are followed already, as candidates
  * - passive_crossings.c: phase 1: crossings of all pairs of sensors
- * - crossing_votes.c: phase 2: votes, and the lines with the most votes
- * - starts.c: phase 3: constant velocities through pairs of a line's crossings
- * - final_tracks.c: phases 4 and 5: the best set of candidates, the tracks with their margins
+ * - starts.c: phase 2: constant velocities through pairs of crossings
+ * - final_tracks.c: phases 3 and 4: the best set of candidates, the tracks with their margins
  * - swapped_bearings.c: candidates from bearings swapped between two candidates
  * - passive.c: configuration, frames, the sequence of phases of a search
  */
@@ -51,13 +50,7 @@ struct rho_passive_search {
     unsigned looks;      /* number of reports: pairs of scan and sensor */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
-    uint16_t theta_cells;
-    float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
-    /* largest number of votes of a cell in each row of theta */
-    uint8_t most_votes[RHO_PASSIVE_THETA_CELLS];
     uint32_t worst_point; /* index of the least certain crossing; num_points: not known */
-    /* number of candidates removed from the list so far in this search */
-    uint16_t candidates_removed;
 };
 
 /* Computes the values of *search that follow from the batch: geometry, times, likelihood ratios. */
@@ -91,27 +84,6 @@ static inline float rho_passive_uncertainty_m2(const struct rho_passive_point *p
     return point->xx_m2 + point->yy_m2;
 }
 
-/* Standard deviation of a crossing's rho, for the line normal (cosine, sine). */
-static inline float rho_passive_rho_sigma_m(const struct rho_passive_point *point, float cosine,
-                                            float sine)
-{
-    return rho_sqrt(point->xx_m2 * cosine * cosine + 2.0f * point->xy_m2 * cosine * sine +
-                    point->yy_m2 * sine * sine);
-}
-
-/* All crossings vote for the lines (rho, theta) through them, into passive->cells. */
-void rho_passive_vote_lines(struct rho_passive_search *search);
-
-struct rho_passive_line {
-    float cosine, sine, rho_m;
-};
-
-/*
- * Takes the line with the most votes, if it has votes_min, and clears the votes of the line and its
- * neighbours. Returns 0 where no line has so many.
- */
-int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
-                               struct rho_passive_line *line);
 /*
  * The constant-velocity state through two crossings, a the older. Returns 0 where it is too fast.
  */
@@ -119,12 +91,8 @@ int rho_passive_connect_crossings(const struct rho_passive_search *search,
                                   const struct rho_passive_point *a,
                                   const struct rho_passive_point *b,
                                   float state_m[RHO_PASSIVE_STATES]);
-/*
- * Tries constant velocities through pairs of crossings on the line: those that agree best with the
- * bearings are fitted and offered as candidates.
- */
-void rho_passive_fit_line_pairs(struct rho_passive_search *search,
-                                const struct rho_passive_line *line);
+/* Fits the pairs of crossings that agree best with the bearings, and offers the candidates. */
+void rho_passive_fit_pairs(struct rho_passive_search *search);
 /* Vector from a sensor to the position of a state at the time of its look. */
 struct rho_passive_offset {
     float x_m, y_m;

@@ -169,8 +169,8 @@
  * scenes. Twice: four times the pairs.
  */
 #define LINE_POINTS_MAX 160u
-/* Pairs of a line that are fitted. Half: true pairs are missed among ghosts. Twice: the time. */
-#define FITS_PER_LINE 20u
+/* Pairs that are fitted in a pass. Half: true pairs are missed among ghosts. Twice: the time. */
+#define FITS_MAX 96u
 
 /* passive_prepare.c */
 

@@ -1,49 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * starts: phase 3 of the search. Two crossings of a line are a constant-velocity hypothesis; those
- * that most bearings agree with are fitted to the bearings.
+ * starts: phase 2 of the search. Two crossings are a constant-velocity hypothesis; those that most
+ * bearings agree with are fitted to the bearings.
  */
 #include "passive_search.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
-
-/* Indices of two crossings in passive->points; crossing a is of an earlier scan than crossing b. */
-struct pair {
-    uint16_t a, b;
-};
-
-/* The pairs of crossings with the highest agreement so far, best first. */
-struct best_pairs {
-    unsigned count;
-    float agreement[FITS_PER_LINE];
-    struct pair pair[FITS_PER_LINE];
-};
-
-/* Lists the indices of the crossings on a line, within their errors. Returns their number. */
-static unsigned collect_crossings(const struct rho_passive_search *search,
-                                  const struct rho_passive_line *line, uint16_t *index)
-{
-    const struct rho_passive *passive = search->passive;
-    float least_m = LINE_CELLS * passive->config.rho_cell_m;
-    unsigned count = 0;
-    for (uint32_t i = 0; i < passive->num_points; i++) {
-        const struct rho_passive_point *point = &passive->points[i];
-        float off_m = point->x_m * line->cosine + point->y_m * line->sine - line->rho_m;
-        float reach_m = SPREAD_SIGMAS * rho_passive_rho_sigma_m(point, line->cosine, line->sine);
-        reach_m = reach_m > least_m ? reach_m : least_m;
-        if (!(off_m < reach_m && -off_m < reach_m)) {
-            continue;
-        }
-        if (count < LINE_POINTS_MAX) {
-            index[count++] = (uint16_t)i;
-        } else {
-            search->passive->work.line_points_dropped =
-                rho_count(search->passive->work.line_points_dropped, 1);
-        }
-    }
-    return count;
-}
 
 /*
  * The 2 x 2 matrix that takes a target's displacement to how far from its middle place the rays of
@@ -105,64 +68,84 @@ int rho_passive_connect_crossings(const struct rho_passive_search *search,
     return 1;
 }
 
-/* Lists the pairs of a line's crossings that agree best with the bearings. */
-static void list_best_pairs(struct rho_passive_search *search, const uint16_t *index,
-                            unsigned count, struct best_pairs *best)
+/* Lists for each crossing the later ones with which the bearings agree best. */
+static void list_partners(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    for (unsigned i = 0; i < count; i++) {
-        unsigned scan_min = passive->points[index[i]].scan + (passive->batch.num_scans + 1u) / 3u;
-        for (unsigned j = 0; j < count; j++) {
-            struct pair pair = {index[i], index[j]};
+    const unsigned apart = (passive->batch.num_scans + 1u) / 3u;
+    for (uint32_t i = 0; i < passive->num_points; i++) {
+        struct rho_passive_partner *best = passive->partners[i];
+        for (unsigned n = 0; n < RHO_PASSIVE_PARTNERS; n++) {
+            best[n] = (struct rho_passive_partner){.agreement = 0.0f};
+        }
+        for (uint32_t j = 0; j < passive->num_points; j++) {
             float state_m[RHO_PASSIVE_STATES];
-            if (passive->points[pair.b].scan < scan_min ||
-                !rho_passive_connect_crossings(search, &passive->points[pair.a],
-                                               &passive->points[pair.b], state_m)) {
+            if (passive->points[j].scan < passive->points[i].scan + apart ||
+                !rho_passive_connect_crossings(search, &passive->points[i], &passive->points[j],
+                                               state_m)) {
                 continue;
             }
-            float least = best->count < FITS_PER_LINE ? -1.0f : best->agreement[FITS_PER_LINE - 1u];
-            float agreement = rho_passive_agreement(search, state_m, least);
+            unsigned place = RHO_PASSIVE_PARTNERS - 1u;
+            const float agreement = rho_passive_agreement(search, state_m, best[place].agreement);
             passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
-            if (!(agreement > least)) {
-                continue;
+            if (agreement > best[place].agreement) {
+                for (; place > 0 && agreement > best[place - 1u].agreement; place--) {
+                    best[place] = best[place - 1u];
+                }
+                best[place] = (struct rho_passive_partner){agreement, (uint16_t)j};
             }
-            unsigned place = best->count < FITS_PER_LINE ? best->count++ : FITS_PER_LINE - 1u;
-            for (; place > 0 && agreement > best->agreement[place - 1u]; place--) {
-                best->agreement[place] = best->agreement[place - 1u];
-                best->pair[place] = best->pair[place - 1u];
-            }
-            best->agreement[place] = agreement;
-            best->pair[place] = pair;
         }
     }
 }
 
-void rho_passive_fit_line_pairs(struct rho_passive_search *search,
-                                const struct rho_passive_line *line)
+static int claims_crossing(const struct rho_passive_candidate *candidate,
+                           const struct rho_passive_point *point)
 {
-    uint16_t index[LINE_POINTS_MAX];
-    struct best_pairs best = {.count = 0};
-    list_best_pairs(search, index, collect_crossings(search, line, index), &best);
-    for (unsigned i = 0; i < best.count; i++) {
-        const struct pair pair = best.pair[i];
-        /* the entry of the pair in the table of fitted pairs, which may hold another pair */
-        struct rho_passive_fitted *fitted =
-            &search->passive->fitted[(pair.a * 61u + pair.b) % RHO_PASSIVE_PAIRS];
-        float state_m[RHO_PASSIVE_STATES];
-        /*
-         * Neighbouring lines share pairs of crossings. Fitting a pair again gives no track if it
-         * gave none before; otherwise it gives a duplicate, unless a candidate has been removed.
-         */
-        int is_useless = fitted->a == pair.a && fitted->b == pair.b &&
-                         (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
-        const struct rho_passive_point *points = search->passive->points;
-        if (is_useless || !rho_passive_connect_crossings(search, &points[pair.a], &points[pair.b],
-                                                         state_m)) {
-            continue;
+    const uint8_t *claim = candidate->claim[point->scan];
+    return claim[point->sensors / 8u] == point->bearing[0] + 1u &&
+           claim[point->sensors % 8u] == point->bearing[1] + 1u;
+}
+
+/* Whether a candidate has the bearings of both crossings: a fit would find it again. */
+static int is_found(const struct rho_passive *passive, const struct rho_passive_point *a,
+                    const struct rho_passive_point *b)
+{
+    for (unsigned i = 0; i < passive->num_candidates; i++) {
+        if (claims_crossing(&passive->candidates[i], a) &&
+            claims_crossing(&passive->candidates[i], b)) {
+            return 1;
         }
-        rho_passive_fit_nearest(search, state_m, 0);
-        int is_track = rho_passive_offer_if_track(search, state_m);
-        *fitted = (struct rho_passive_fitted){
-            .a = pair.a, .b = pair.b, .when = is_track ? search->candidates_removed : UINT16_MAX};
+    }
+    return 0;
+}
+
+void rho_passive_fit_pairs(struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    list_partners(search);
+    for (unsigned fits = 0; fits < FITS_MAX;) {
+        struct rho_passive_partner *best = 0;
+        uint32_t of = 0;
+        for (uint32_t i = 0; i < passive->num_points; i++) {
+            for (unsigned n = 0; n < RHO_PASSIVE_PARTNERS; n++) {
+                struct rho_passive_partner *one = &passive->partners[i][n];
+                if (one->agreement > (best ? best->agreement : 0.0f)) {
+                    best = one;
+                    of = i;
+                }
+            }
+        }
+        if (!best) {
+            return;
+        }
+        const struct rho_passive_point *a = &passive->points[of];
+        const struct rho_passive_point *b = &passive->points[best->point];
+        float state_m[RHO_PASSIVE_STATES];
+        best->agreement = 0.0f;
+        if (!is_found(passive, a, b) && rho_passive_connect_crossings(search, a, b, state_m)) {
+            rho_passive_fit_nearest(search, state_m, 0);
+            (void)rho_passive_offer_if_track(search, state_m);
+            fits++;
+        }
     }
 }
