@@ -177,9 +177,9 @@ demo-live:
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
 
-experiment_names := air_traffic claims dense_windows doppler extended extended_rivals false_alarms \
-                    fusion initiation low_pd maneuver notch papers_initiation passive polar \
-                    real_skies rotating several_radars two_radars
+experiment_names := air_traffic bearings claims dense_windows doppler extended extended_rivals \
+                    false_alarms fusion initiation low_pd maneuver notch papers_initiation \
+                    passive polar real_skies rotating several_radars two_radars
 ## Set up what is missing, build, and run all experiments of the lab (build/experiment; LAB=options;
 ## hours)
 experiments:

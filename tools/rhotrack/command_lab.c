@@ -12,10 +12,10 @@
 static const char *const names[] = {"experiment", "bench"};
 
 static const char *const experiments[] = {
-    "air-traffic",       "claims",  "dense-windows", "doppler",    "extended", "extended-rivals",
-    "false-alarms",      "fusion",  "initiation",    "low-pd",     "maneuver", "notch",
-    "papers-initiation", "passive", "polar",         "real-skies", "rotating", "several-radars",
-    "two-radars"};
+    "air-traffic",     "bearings",          "claims",  "dense-windows", "doppler",    "extended",
+    "extended-rivals", "false-alarms",      "fusion",  "initiation",    "low-pd",     "maneuver",
+    "notch",           "papers-initiation", "passive", "polar",         "real-skies", "rotating",
+    "several-radars",  "two-radars"};
 
 enum { NUM_EXPERIMENTS = sizeof experiments / sizeof *experiments };
 
