@@ -132,6 +132,8 @@ class Score(unittest.TestCase):
         found = self.of(self.truth_m)
         self.assertAlmostEqual(found["completeness"], 1 - 11 / 160)
         self.assertAlmostEqual(found["first"], 10 / 4)
+        self.truth_m[:, 2] = np.nan
+        self.assertAlmostEqual(self.of(self.truth_m)["first"], (10 + 40) / 4)
 
     def test_a_track_far_away(self):
         self.truth_m[:, 2] += [0, 1e6]
@@ -224,7 +226,7 @@ class EndToEnd(unittest.TestCase):
     def test_rows_by_name_by_part_and_with_those_beside(self):
         self.assertEqual(bearings.chosen(["turning .5 deg"]), ["turning .5 deg"])
         self.assertEqual(bearings.chosen(["moving"]), ["3 moving .5 deg", "2 moving .1 deg"])
-        self.assertEqual(bearings.chosen(["3 s"]), ["clean .1 deg", "3 s apart"])
+        self.assertEqual(bearings.chosen(["3 s a"]), ["clean .1 deg", "3 s apart"])
 
     def test_a_refusal_is_told_and_the_experiment_goes_on(self):
         done, _ = self.run_it("--rows", "turning .1 deg", "--set", "pd=7")

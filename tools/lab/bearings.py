@@ -199,7 +199,7 @@ def judge(report, name, figures, runs):
 
 
 def draw(report, figures):
-    """Completeness, and rms over the oracle's, of each row."""
+    """Completeness and rms of each row."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -209,18 +209,16 @@ def draw(report, figures):
     for who, colour, marker in ((ORACLE, "#9aa3ad", "|"), (STONE_SOUP, "#2e8b57", "s"),
                                 (PAPER, "#e0812b", "x"), (RHOTRACK, "#1f5fbf", "o")):
         rows = [figures[name].get(who) for name in names]
-        rows = [{} if not isinstance(row, dict) else row for row in rows]
-        left.plot([row.get("completeness", (np.nan,))[0] for row in rows], places, marker,
-                  color=colour, label=who, ls="")
-        right.plot([row.get("rms_m", (np.nan,))[0] for row in rows], places, marker, color=colour,
-                   ls="")
+        for axes, key in ((left, "completeness"), (right, "rms_m")):
+            axes.plot([row[key][0] if isinstance(row, dict) else np.nan for row in rows], places,
+                      marker, color=colour, label=who, ls="")
     left.plot([np.nan if ROWS[name][1].completeness is None else ROWS[name][1].completeness
                for name in names], places, marker="|", ms=14, color="#d1242f", label="goal", ls="")
     left.set_yticks(places, names)
     left.invert_yaxis()
     left.set(xlabel="completeness", xlim=(0, 1.02))
     right.set(xlabel=f"rms m after frame {bearings_runs.SETTLED_FRAMES}", xscale="log")
-    left.legend(loc="lower left")
+    figure.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=5)
     for axes in (left, right):
         axes.grid(axis="x", alpha=0.3)
     report.figure("rows", figure, "Each row by each tracker; goals of completeness in red.")

@@ -15,8 +15,8 @@ from common.stonesoup_tracker import EPOCH, POSITION
 from parts.passive_scenes import wrapped
 
 GATE = 3.0  # sigmas
-# Places that the initiator wants before it releases a track. Completeness and false tracks a scan of
-# rows clean .1 deg, clean .5 deg, straight 2 deg, turning .5 deg, four seeds:
+# Places that the initiator wants before it releases a track. Completeness and false tracks a scan
+# of rows clean .1 deg, clean .5 deg, straight 2 deg, turning .5 deg, four seeds:
 #   3: .950 .950 .842 .938, .24 1.06 1.27 .60    6: .873 .819 .873 .832, 0 1.09 .63 .52
 MIN_POINTS = 3
 HOLD_MISSES, MISSES = 2, 5  # frames in a row that end a track in the initiator, and later
