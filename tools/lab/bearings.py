@@ -218,7 +218,8 @@ def draw(report, figures):
     left.invert_yaxis()
     left.set(xlabel="completeness", xlim=(0, 1.02))
     right.set(xlabel=f"rms m after frame {bearings_runs.SETTLED_FRAMES}", xscale="log")
-    figure.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=5)
+    figure.legend(*left.get_legend_handles_labels(), loc="lower center", ncols=5,
+                  bbox_to_anchor=(0.5, 0.9))
     for axes in (left, right):
         axes.grid(axis="x", alpha=0.3)
     report.figure("rows", figure, "Each row by each tracker; goals of completeness in red.")
