@@ -330,22 +330,9 @@
 #define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Cells of the passive Hough transform: theta, 7 .. 255; rho, 8 .. 4096. RAM: 2 bytes a cell. */
-#ifndef RHO_PASSIVE_THETA_CELLS
-#define RHO_PASSIVE_THETA_CELLS 36
-#endif
-#ifndef RHO_PASSIVE_RHO_CELLS
-#define RHO_PASSIVE_RHO_CELLS 128
-#endif
-
 /* Directions by which bearings are looked up. RAM: a bit each. A multiple of 32, 32 .. 4096. */
 #ifndef RHO_PASSIVE_BINS
 #define RHO_PASSIVE_BINS 256
-#endif
-
-/* Pairs of crossings remembered as fitted already. RAM: 6 bytes a pair. 1 .. 65536. */
-#ifndef RHO_PASSIVE_PAIRS
-#define RHO_PASSIVE_PAIRS 256
 #endif
 
 /* The papers' methods (hough.h, passive_paper.h, paper_starts.h, publish.h). */
@@ -436,12 +423,9 @@ RHO_CONFIG_RANGE(RHO_MAX_PASSIVE_LINES, 1, 255);
 RHO_CONFIG_RANGE(RHO_PAPER_THETA_CELLS, 18, 1024);
 RHO_CONFIG_RANGE(RHO_PAPER_RHO_CELLS, 16, 4096);
 RHO_CONFIG_RANGE(RHO_MAX_PAPER_CROSSINGS, 16, 65535);
-RHO_CONFIG_RANGE(RHO_PASSIVE_THETA_CELLS, 7, 255);
-RHO_CONFIG_RANGE(RHO_PASSIVE_RHO_CELLS, 8, 4096);
 #if RHO_PASSIVE_BINS < 32 || RHO_PASSIVE_BINS > 4096 || RHO_PASSIVE_BINS % 32 != 0
 #error "RHO_PASSIVE_BINS must be a multiple of 32, 32 .. 4096"
 #endif
-RHO_CONFIG_RANGE(RHO_PASSIVE_PAIRS, 1, 65536);
 RHO_CONFIG_RANGE(RHO_MAX_TRACKS, 1, 8192);
 RHO_CONFIG_RANGE(RHO_MAX_HYPOTHESES, 1, 65534);
 RHO_CONFIG_RANGE(RHO_FILTERS, 1, 7);

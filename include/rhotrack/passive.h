@@ -51,10 +51,6 @@ struct rho_passive_config {
      * share is required of all looks
      */
     float hits_min;
-    /* size of the cells of rho: >= 2 (range_max_m + farthest sensor) / RHO_PASSIVE_RHO_CELLS */
-    float rho_cell_m;
-    /* size of the cells of theta: at least pi / RHO_PASSIVE_THETA_CELLS */
-    float theta_cell_rad;
     enum rho_ghost_rule rule; /* rule by which ghosts are pruned in step 1 */
     /* rate of false tracks that reach the score start_mnat: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
@@ -80,12 +76,8 @@ struct rho_passive_work {
     /* first pass: crossings of all pairs of bearings, and those pruned as ghosts */
     uint32_t crossings, ghosts;
     uint32_t points_dropped; /* crossings beyond RHO_MAX_PASSIVE_POINTS, the least certain ones */
-    /* crossings on a line beyond 160, those of the last sensor pairs */
-    uint32_t line_points_dropped;
-    uint32_t peaks;      /* lines from whose crossings hypotheses were made */
     uint32_t hypotheses; /* pairs of crossings whose agreement with the bearings was computed */
-    /* fits of a state to bearings; a pair of crossings is fitted again only if it was forgotten */
-    uint32_t fits;
+    uint32_t fits; /* fits of a state to bearings */
     uint32_t candidates_dropped; /* candidates beyond RHO_MAX_PASSIVE_CANDIDATES */
 };
 
@@ -169,8 +161,8 @@ struct rho_passive {
 };
 
 /*
- * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, cells of
- * 2 km and 5 degrees, the safe rule. Constant cost.
+ * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, the
+ * safe rule. Constant cost.
  */
 void rho_passive_config_default(struct rho_passive_config *config);
 

@@ -21,8 +21,6 @@ void rho_passive_config_default(struct rho_passive_config *config)
                                           .pd = 0.9f,
                                           .field_of_view_rad = RHO_PI,
                                           .hits_min = 0.65f,
-                                          .rho_cell_m = 2000.0f,
-                                          .theta_cell_rad = RHO_PI / 36.0f,
                                           .rule = RHO_GHOST_SAFE,
                                           .false_tracks_per_hour = 1.0f};
 }
@@ -35,10 +33,6 @@ static int is_usable(const struct rho_passive_config *config)
            rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->field_of_view_rad, 0.01f, RHO_TWO_PI) &&
            rho_is_within(config->hits_min, 0.1f, 1.0f) &&
-           rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
-           2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS &&
-           rho_is_within(config->theta_cell_rad, 0.99f * RHO_PI / (float)RHO_PASSIVE_THETA_CELLS,
-                         0.5f) &&
            rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f) &&
            (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
@@ -60,11 +54,7 @@ enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size
     memset(passive, 0, sizeof *passive);
     passive->config = kept;
     passive->magic = PASSIVE_MAGIC;
-    /* all lines through the sensors' coverage must lie within the cells of rho */
-    float reach_m = 0.5f * kept.rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - kept.range_max_m;
-    float apart_m = rho_smaller(2.0f * reach_m, 4.0f * RHO_LIMIT_POSITION_M);
-    apart_m = apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
-    return rho_batch_init(&passive->batch, kept.scans, apart_m);
+    return rho_batch_init(&passive->batch, kept.scans, 4.0f * RHO_LIMIT_POSITION_M);
 }
 
 enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_frame *frame,
@@ -148,7 +138,6 @@ static enum rho_status search_batch(struct rho_passive *passive, struct rho_pass
     rho_passive_block_bearings(&search);
 
     /* the final selection is from the candidates of both passes */
-    rho_passive_offer_swapped(&search);
     rho_passive_select_tracks(&search);
     return RHO_OK;
 }

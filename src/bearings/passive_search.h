@@ -13,7 +13,6 @@
  * - passive_crossings.c: phase 1: crossings of all pairs of sensors
  * - starts.c: phase 2: constant velocities through pairs of crossings
  * - final_tracks.c: phases 3 and 4: the best set of candidates, the tracks with their margins
- * - swapped_bearings.c: candidates from bearings swapped between two candidates
  * - passive.c: configuration, frames, the sequence of phases of a search
  */
 #ifndef RHOTRACK_PASSIVE_SEARCH_H
@@ -187,12 +186,6 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
 unsigned rho_passive_count_shared(const struct rho_passive_search *search,
                                   const struct rho_passive_candidate *a,
                                   const struct rho_passive_candidate *b);
-/*
- * Offers candidates for targets whose bearings two ghost candidates share: one sensor's bearings of
- * one candidate with another sensor's bearings of the other (swapped_bearings.c).
- */
-void rho_passive_offer_swapped(struct rho_passive_search *search);
-
 struct rho_passive_choice {
     const struct rho_passive_search *search;
     unsigned count; /* number of candidates */

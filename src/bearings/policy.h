@@ -11,13 +11,8 @@
  */
 #define GAIN_MIN_NAT 1.0e-3f
 /*
- * Half width, in sigmas of rho, of a crossing's votes and of the band in which it is on a line.
- * Half: a third of a target's crossings miss its line. Twice: lines blur, and ghosts join them.
- */
-#define SPREAD_SIGMAS 2.0f
-/*
- * Best candidates from which choices start, and whose bearings are swapped in pairs. Half: targets
- * behind ghosts of the lower half stay hidden. Twice: four times as many swaps.
+ * Best candidates from which choices start. Half: targets behind ghosts of the lower half stay
+ * hidden. Twice: the time.
  */
 #define BEST_TRIED 12u
 
@@ -28,25 +23,6 @@
  * into rows of two halves. Twice: a missed look is waited for, and the sensor's next one joins.
  */
 #define ROW_INTERVALS 0.9f
-
-/* passive.c */
-
-/*
- * Lines that a pass takes. Half: in dense scenes weak targets are not reached. Twice: the longest
- * search takes twice the time.
- */
-#define LINES_MAX 96u
-/*
- * Smallest number of scans whose crossings must vote for a line; one scan tells no velocity. Half:
- * where few scans have two sensors each crossing is a line. Twice: short batches need all scans.
- */
-#define VOTES_MIN 2u
-/*
- * Share of the scans with crossings that must vote for a line; less in the second pass, where fewer
- * bearings are left. Half: many lines of ghosts are fitted. Twice: a target with misses has none.
- */
-#define FIRST_VOTES_SHARE 0.6f
-#define SECOND_VOTES_SHARE 0.5f
 
 /* bearing_match.c */
 
@@ -134,41 +110,18 @@
 /* Rounds of assignment and fit. Half: assignments of the start stay. Twice: hardly any change. */
 #define FIT_ROUNDS 3u
 
-/* crossing_votes.c */
-
-/*
- * Cells on either side that a crossing's votes may reach. Half: poor crossings miss their line.
- * Twice: one poor crossing votes for lines in half the plane.
- */
-#define SPREAD_CELLS_MAX 8
-/*
- * Cells on either side that are cleared with a line. Half: a target's line is taken several times.
- * Twice: targets on similar courses lose their line.
- */
-#define NEIGHBOUR_CELLS 2
-
 /* starts.c */
 
 /*
- * Crossings within this many rho cells always count as on the line. Half: those of the cell's edge
- * may not. Twice: crossings of other targets are tried too.
+ * Least share of the rows between the crossings of a pair. Half: pairs whose velocity is noise fill
+ * the lists. Twice: a target that missed at an end of the rows has no pair.
  */
-#define LINE_CELLS 1.5f
-/*
- * Scans between two crossings of a pair: closer ones tell little of the velocity. Half: poor
- * hypotheses fill the list. Twice: short tracks have no pair.
- */
-#define PAIR_SCANS_MIN 3u
+#define PAIR_ROWS_SHARE 0.34f
 /*
  * Margin above v_max_mps for the speed of a pair, as crossings are inaccurate before the fit. Half:
  * some fast targets get no hypothesis. Twice: more hypotheses that cannot be tracks.
  */
 #define SPEED_SLACK_MPS 150.0f
-/*
- * Crossings of a line that are paired. Half: those of the last sensor pairs are left out in dense
- * scenes. Twice: four times the pairs.
- */
-#define LINE_POINTS_MAX 160u
 /* Pairs that are fitted in a pass. Half: true pairs are missed among ghosts. Twice: the time. */
 #define FITS_MAX 96u
 

@@ -72,7 +72,7 @@ int rho_passive_connect_crossings(const struct rho_passive_search *search,
 static void list_partners(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    const unsigned apart = (passive->batch.num_scans + 1u) / 3u;
+    const unsigned apart = 1u + (unsigned)(PAIR_ROWS_SHARE * (float)(passive->batch.num_scans - 2u));
     for (uint32_t i = 0; i < passive->num_points; i++) {
         struct rho_passive_partner *best = passive->partners[i];
         for (unsigned n = 0; n < RHO_PASSIVE_PARTNERS; n++) {

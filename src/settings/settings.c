@@ -106,7 +106,6 @@ void rho_settings_apply(const struct rho_settings *settings, struct rho_tracker_
         /* within the limits of a passive search */
         const float range_m = rho_smaller(settings->range_max_m, 500000.0f);
         passive->range_max_m = range_m > 1000.0f ? range_m : 1000.0f;
-        passive->rho_cell_m = PASSIVE_SPAN * passive->range_max_m / (float)RHO_PASSIVE_RHO_CELLS;
         passive->v_max_mps = settings->v_max_mps;
         passive->pd = settings->pd;
         passive->false_tracks_per_hour = settings->false_tracks_per_hour;

@@ -83,7 +83,6 @@ static void print_search_json(const struct rho_passive *passive, const struct la
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
     cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);
     cJSON_AddNumberToObject(object, "ghosts", work->ghosts);
-    cJSON_AddNumberToObject(object, "lines", work->peaks);
     cJSON_AddNumberToObject(object, "hypotheses", work->hypotheses);
     cJSON_AddNumberToObject(object, "fits", work->fits);
     cJSON_AddNumberToObject(object, "points_dropped", work->points_dropped);

@@ -183,21 +183,29 @@ static void suggest_wider_rho_cells(struct parameters *parameters, int rho_cells
     }
 }
 
-/* Exit 2 where parameters do not suit the methods for bearings, or their accumulators. */
-static void check_bearing_parameters(const struct parameters *parameters, int rho_cells,
-                                     int theta_cells)
+/* Exit 2 where parameters do not suit the methods for bearings. */
+static void check_bearing_parameters(const struct parameters *parameters)
 {
     const double *value = parameters->value;
-    double cells = 2.0 * value[PARAMETER_RANGE_MAX_M] / value[PARAMETER_D_RHO_M];
 
     parameters_check_together(parameters);
-    if (value[PARAMETER_SCANS] < 4) {
-        fail(EXIT_USAGE, "scans %.9g are too few for bearings: 4 or more", value[PARAMETER_SCANS]);
+    if (value[PARAMETER_SCANS] < RHO_BATCH_SCANS_MIN) {
+        fail(EXIT_USAGE, "scans %.9g are too few for bearings: %u or more", value[PARAMETER_SCANS],
+             RHO_BATCH_SCANS_MIN);
     }
     if (value[PARAMETER_RANGE_MAX_M] < 1000 || value[PARAMETER_RANGE_MAX_M] > 500000) {
         fail(EXIT_USAGE, "range_max_m %.9g is outside 1000 .. 500000 m for bearings",
              value[PARAMETER_RANGE_MAX_M]);
     }
+}
+
+/* Exit 2 where parameters do not suit the accumulator for bearings. */
+static void check_paper_cells(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+    const int rho_cells = RHO_PAPER_RHO_CELLS, theta_cells = RHO_PAPER_THETA_CELLS;
+    double cells = 2.0 * value[PARAMETER_RANGE_MAX_M] / value[PARAMETER_D_RHO_M];
+
     if (cells > rho_cells) {
         fail(EXIT_USAGE, "range_max_m %.9g needs %.0f cells of d_rho_m %.9g; the limit is %d",
              value[PARAMETER_RANGE_MAX_M], ceil(cells), value[PARAMETER_D_RHO_M], rho_cells);
@@ -218,19 +226,14 @@ static enum rho_ghost_rule ghost_rule_of(const struct parameters *parameters)
 
 struct rho_passive_config method_passive_config(const struct parameters *parameters)
 {
-    struct parameters fitted = *parameters;
-    const double *value = fitted.value;
     struct rho_passive_config config;
     struct rho_settings settings;
 
-    suggest_wider_rho_cells(&fitted, RHO_PASSIVE_RHO_CELLS);
-    check_bearing_parameters(&fitted, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
-    settings = parameters_to_settings(&fitted);
+    check_bearing_parameters(parameters);
+    settings = parameters_to_settings(parameters);
     rho_passive_config_default(&config);
     rho_settings_apply(&settings, NULL, NULL, &config);
-    config.scans = (uint16_t)value[PARAMETER_SCANS];
-    config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
-    config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.scans = (uint16_t)parameters->value[PARAMETER_SCANS];
     config.rule = ghost_rule_of(parameters);
     return config;
 }
@@ -242,7 +245,8 @@ struct rho_passive_paper_config method_passive_paper_config(const struct paramet
     struct rho_passive_paper_config config;
 
     suggest_wider_rho_cells(&fitted, RHO_PAPER_RHO_CELLS);
-    check_bearing_parameters(&fitted, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
+    check_bearing_parameters(&fitted);
+    check_paper_cells(&fitted);
     if (value[PARAMETER_VOTES_MIN] > 255) {
         fail(EXIT_USAGE, "votes_min %.9g is more than 255, the most that passive-paper counts",
              value[PARAMETER_VOTES_MIN]);

@@ -262,6 +262,10 @@ void bearing_reader_need_two(const struct bearing_reader *reader)
 
 void bearing_reader_keep_last(struct bearing_reader *reader, uint64_t frames)
 {
+    /* sensors that look at times of their own have a frame each */
+    if (reader->total.frames_incomplete == reader->total.frames) {
+        frames *= reader->known.count;
+    }
     print_if_only_last_taken(frames, reader->total.frames, "frames");
     reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
 }
