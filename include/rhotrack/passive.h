@@ -157,7 +157,7 @@ struct rho_passive {
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
     /* number of bearings that two candidates both claim */
     uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES];
-    struct rho_passive_set best, other, spare;
+    struct rho_passive_set best;
 };
 
 /*

@@ -11,93 +11,39 @@
 #include "policy.h"
 #include "rhotrack/types.h"
 
-static const float none_nat = -1.0e9f;
-
-/* Choices without a candidate's target: alternative i has candidate i instead, the last none. */
-struct alternatives {
-    struct rho_passive_choice without;
-    /* total score of each alternative; none_nat: no such alternative, or already fitted */
-    float total_nat[RHO_MAX_PASSIVE_CANDIDATES + 1];
-};
-
-static unsigned best_alternative(const struct alternatives *alternatives)
-{
-    unsigned best = 0;
-    for (unsigned i = 1; i <= alternatives->without.count; i++) {
-        if (alternatives->total_nat[i] > alternatives->total_nat[best]) {
-            best = i;
-        }
-    }
-    return best;
-}
-
 /*
- * The highest total of a set of tracks without the target of candidate `which`. With
- * may_replace_best, a set that exceeds passive->best replaces it, and its choice replaces *choice.
- * Alternatives beyond ALTERNATIVES_MAX are not fitted; the total of their choice is taken.
+ * The highest total of a set of tracks without the target of candidate `which`: of the rest, and
+ * with each candidate that shares bearings with it. What a joint fit gained is taken to be gained
+ * by the others too.
  */
-static float best_total_without_target(const struct rho_passive_search *search,
-                                       struct rho_passive_choice *choice, unsigned which,
-                                       int may_replace_best)
+static float total_without_target(const struct rho_passive_search *search,
+                                  const struct rho_passive_choice *choice, unsigned which)
 {
-    struct rho_passive *passive = search->passive;
-    float most_nat = none_nat, fit_nat = passive->best.total_nat - choice->total_nat;
-    struct alternatives alternatives = {.without = *choice};
-    rho_passive_exclude_target(&alternatives.without, which);
+    const struct rho_passive *passive = search->passive;
+    struct rho_passive_choice without = *choice;
+    float most_nat = 0.0f;
+    rho_passive_exclude_target(&without, which);
     for (unsigned i = 0; i <= choice->count; i++) {
-        alternatives.total_nat[i] = none_nat;
-        if (i == choice->count ||
-            (!alternatives.without.is_out[i] && passive->shared[which][i] > 0)) {
-            struct rho_passive_choice tried = alternatives.without;
+        if (i == choice->count || (!without.is_out[i] && passive->shared[which][i] > 0)) {
+            struct rho_passive_choice tried = without;
             rho_passive_add_gaining(&tried, i);
             rho_passive_improve_choice(&tried);
-            alternatives.total_nat[i] = tried.total_nat;
+            most_nat = rho_larger(most_nat, tried.total_nat);
         }
     }
-    for (unsigned n = 0; n < ALTERNATIVES_MAX; n++) {
-        unsigned best = best_alternative(&alternatives);
-        if (alternatives.total_nat[best] < choice->total_nat - ALTERNATIVES_WITHIN_NAT) {
-            break;
-        }
-        struct rho_passive_choice tried = alternatives.without;
-        rho_passive_add_gaining(&tried, best);
-        rho_passive_improve_choice(&tried);
-        rho_passive_fit_jointly(search, &tried, &passive->other);
-        alternatives.total_nat[best] = none_nat;
-        most_nat = passive->other.total_nat > most_nat ? passive->other.total_nat : most_nat;
-        if (may_replace_best && most_nat > passive->best.total_nat + GAIN_MIN_NAT) {
-            passive->best = passive->other;
-            *choice = tried;
-            memset(choice->is_out, 0, sizeof choice->is_out);
-            return most_nat;
-        }
-    }
-    float unfitted_nat = alternatives.total_nat[best_alternative(&alternatives)] + fit_nat;
-    return unfitted_nat > most_nat ? unfitted_nat : most_nat;
+    return most_nat + passive->best.total_nat - choice->total_nat;
 }
 
-/*
- * Finds the margin of each track. All margins refer to one best set: they are computed anew when
- * another set becomes the best, which happens at most CHANGES_MAX times.
- */
-static void find_margins(const struct rho_passive_search *search, struct rho_passive_choice *choice,
+/* Margins of the new tracks of the best set. */
+static void find_margins(const struct rho_passive_search *search,
+                         const struct rho_passive_choice *choice,
                          float margins_nat[RHO_MAX_PASSIVE_TRACKS])
 {
     const struct rho_passive_set *best = &search->passive->best;
-    unsigned changes = 0;
-    for (unsigned t = 0; t < best->num;) {
-        if (best->tracks[t].known > 0) {
-            margins_nat[t++] = 0.0f;
-            continue;
-        }
-        float total_nat = best->total_nat;
-        float margin_nat = total_nat - best_total_without_target(search, choice, best->candidate[t],
-                                                                 changes < CHANGES_MAX);
-        if (best->total_nat > total_nat) {
-            changes++;
-            t = 0;
-        } else {
-            margins_nat[t++] = margin_nat > 0.0f ? margin_nat : 0.0f;
+    for (unsigned t = 0; t < best->num; t++) {
+        if (best->tracks[t].known == 0) {
+            const float less_nat = total_without_target(search, choice, best->candidate[t]);
+            margins_nat[t] = rho_larger(best->total_nat - less_nat, 0.0f);
         }
     }
 }

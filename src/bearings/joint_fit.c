@@ -188,7 +188,6 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
                              const struct rho_passive_choice *choice, struct rho_passive_set *set)
 {
     struct rho_passive *passive = search->passive;
-    struct rho_passive_set *spare = &passive->spare;
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
     rho_passive_rank_candidates(passive, order);
     set->num = 0;
@@ -200,21 +199,5 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
             set->candidate[set->num++] = order[i];
         }
     }
-    *spare = *set;
     fit_set(search, set);
-    for (unsigned t = 0; t < spare->num; t++) {
-        struct rho_passive_candidate *track = &spare->tracks[t];
-        if (track->known == 0) {
-            rho_passive_fit_nearest(search, track->state_m, 0);
-            rho_passive_claim_nearest(search, 0, track);
-        }
-        rho_passive_mark_claims(passive, track, 1);
-    }
-    for (unsigned t = 0; t < spare->num; t++) {
-        rho_passive_mark_claims(passive, &spare->tracks[t], 0);
-    }
-    fit_set(search, spare);
-    if (spare->total_nat > set->total_nat + GAIN_MIN_NAT) {
-        *set = *spare;
-    }
 }
