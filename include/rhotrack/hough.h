@@ -194,8 +194,6 @@ struct rho_hough {
                 uint32_t row[RHO_MAX_RHO_CELLS];
             } step;
         } sparse;
-        /* hash table of kept peaks, when peaks are suppressed */
-        uint32_t kept[RHO_MAX_HOUGH_CELLS];
     } work;
 };
 

@@ -295,9 +295,7 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
                                                    .rho_cells = hough->rho_cells,
                                                    .theta = hough->theta_reach,
                                                    .rho = hough->rho_reach};
-        result->num_peaks =
-            rho_peak_list_suppress(peaks, result->num_peaks, &distance, hough->work.kept,
-                                   hash_size_for(result->num_peaks));
+        result->num_peaks = rho_peak_list_suppress(peaks, result->num_peaks, &distance);
     }
     return status;
 }

@@ -175,14 +175,10 @@ void rho_peak_list_sort(struct rho_peak_list *list);
 /*
  * Suppresses peaks near a better one. The list is sorted, best first: each peak that is kept drops
  * all worse peaks near it, also across the ends of theta. Returns the number of peaks kept, which
- * are moved to the front.
- *   scratch  num_scratch words for a hash table, a power of two; NULL and 0: no table
- * Cost: a few look-ups a peak while scratch has 3/2 words for each peak kept; peaks kept beyond
- * that are compared one by one. Stack: 180 bytes.
+ * are moved to the front. Cost: the peaks times those kept. Stack: 60 bytes.
  */
 uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num_peaks,
-                                const struct rho_peak_distance *distance, uint32_t *scratch,
-                                uint32_t num_scratch);
+                                const struct rho_peak_distance *distance);
 
 /* Cell of rho in which a point votes in a row of theta; -1: the point is beyond rho_max_m there. */
 int rho_accumulator_cell_of_point(const struct rho_accumulator *accumulator, unsigned theta_cell,

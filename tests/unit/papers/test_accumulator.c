@@ -18,10 +18,10 @@
 #include "rhotrack/detail/accumulator.h"
 #include "rhotrack/types.h"
 
-static uint32_t suppress_peaks(uint32_t num_peaks, uint32_t *scratch, uint32_t num_scratch)
+static uint32_t suppress_peaks(uint32_t num_peaks)
 {
     struct rho_peak_distance distance = {accumulator.theta_cells, accumulator.rho_cells, 8, 8};
-    return rho_peak_list_suppress(peaks, num_peaks, &distance, scratch, num_scratch);
+    return rho_peak_list_suppress(peaks, num_peaks, &distance);
 }
 
 static void peaks_agree_with_the_whole_plane_at_the_papers_cells(void **state)
@@ -122,7 +122,7 @@ static void a_line_at_the_end_of_theta_is_one_peak(void **state)
         config.min_votes = 7;
         init_accumulator_with_config(&config);
         find_peaks(PEAKS_MAX);
-        uint32_t kept = suppress_peaks(result.num_peaks, NULL, 0);
+        uint32_t kept = suppress_peaks(result.num_peaks);
         assert_int_equal(kept, 1);
     }
 }
@@ -282,10 +282,6 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
-    static struct rho_accumulator_peak unsuppressed[3000];
-    static uint32_t scratch[4096];
-    /* sizes of the scratch memory: none, too small, large */
-    const uint32_t sizes[] = {0, 1, 16, 512, 4096};
     scatter_points(7, 150, 2500.0);
     config.min_votes = 3;
     init_accumulator_with_config(&config);
@@ -301,12 +297,8 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
         }
     }
     assert_true(all > 500);
-    memcpy(unsuppressed, peaks, all * sizeof peaks[0]);
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        memcpy(peaks, unsuppressed, all * sizeof peaks[0]);
-        assert_int_equal(suppress_peaks(all, sizes[i] ? scratch : NULL, sizes[i]), kept);
-        assert_memory_equal(peaks, expected, kept * sizeof peaks[0]);
-    }
+    assert_int_equal(suppress_peaks(all), kept);
+    assert_memory_equal(peaks, expected, kept * sizeof peaks[0]);
     assert_true(kept < all);
 }
 
