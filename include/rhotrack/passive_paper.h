@@ -16,8 +16,8 @@
  *               more, all pairs of sensors must confirm a cell by T votes in the cell itself or a
  *               neighbour, which ghosts rarely pass: those of different pairs are in other places
  *   4 choose    the cell with the most votes of all pairs together, the middle one of equal
- *               neighbours; then the next one that is not within 4 cells of theta and 3 of rho of a
- *               chosen cell
+ *               neighbours; then the next one that is not on a chosen cell's ridge: within 4 cells
+ *               of its theta, within 3 of rho of the line through its voters' mean place
  *
  * A line has no time. Its position and velocity are a least-squares fit through the crossings that
  * voted for it, ghosts among them.
@@ -213,10 +213,10 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_plane(struct rho_passive_paper 
 
 /*
  * Step 3 for one pair of sensors: the cells with T votes or more in its accumulator, best first,
- * without cells near a better one (step 4). Lifetime and errors as rho_passive_paper_plane; NULL
- * also for peaks and num_peaks.
- *   peaks  room for max_peaks cells, from which the result is chosen; masks of scans are filled
- * Cost: the voting of a pair, and for each cell found the crossings.
+ * without cells on the ridge of a better one (step 4). Lifetime and errors as
+ * rho_passive_paper_plane; NULL also for peaks and num_peaks.
+ *   peaks  room for max_peaks cells; masks of scans are filled
+ * Cost: the voting of a pair, and for each cell found all cells and the crossings.
  * Stack: 1.6 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,

@@ -61,69 +61,20 @@ static struct cell find_plateau_middle(const struct rho_passive_paper_search *se
     return best;
 }
 
-void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search)
-{
-    struct rho_passive_paper *paper = search->paper;
-    for (int row = 0; row < search->rows; row++) {
-        for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
-            paper->work.cells += paper->cells[row][column] > 0;
-        }
-    }
-    for (;;) {
-        struct cell at = {0, 0};
-        unsigned height = 0;
-        for (int row = 0; row < search->rows; row++) {
-            for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
-                if (paper->cells[row][column] > height) {
-                    height = paper->cells[row][column];
-                    at = (struct cell){row, column};
-                }
-            }
-        }
-        if (height == 0) {
-            return;
-        }
-        at = find_plateau_middle(search, at, height);
-        for (int row = at.row - LINE_NEAR_ROWS; row <= at.row + LINE_NEAR_ROWS; row++) {
-            for (int i = at.column - LINE_NEAR_COLUMNS; i <= at.column + LINE_NEAR_COLUMNS; i++) {
-                struct cell cell = wrapped_cell(search, row, i);
-                if (i >= 0 && i < RHO_PAPER_RHO_CELLS) {
-                    paper->cells[cell.row][cell.column] = 0;
-                }
-            }
-        }
-        if (paper->num_lines == RHO_MAX_PASSIVE_LINES) {
-            paper->work.lines_dropped = rho_count(paper->work.lines_dropped, 1);
-            continue;
-        }
-        struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, at.row);
-        float column = (float)at.column + 0.5f - 0.5f * (float)RHO_PAPER_RHO_CELLS;
-        paper->fits[paper->num_lines] =
-            (struct rho_passive_paper_fit){.row = (int16_t)at.row, .column = (int16_t)at.column};
-        paper->lines[paper->num_lines++] = (struct rho_passive_paper_line){
-            .rho_m = column * paper->config.rho_cell_m + search->middle_x_m * direction.cosine +
-                     search->middle_y_m * direction.sine,
-            .theta_rad = ((float)at.row + 0.5f) * RHO_PI / (float)search->rows,
-            .votes = UINT8_MAX,
-            .votes_sum = (uint16_t)(height - 1u)}; /* cells hold 1 and the votes */
-    }
-}
-
 /*
- * Among the cell of a line and the neighbours that may confirm it, finds the cell with the most
+ * Among a cell and the neighbours that may confirm it, finds the cell with the most
  * votes of the current pair of sensors. Returns its votes.
  */
-static unsigned find_most_voted_cell(const struct rho_passive_paper_search *search,
-                                     const struct rho_passive_paper_fit *fit, struct cell *best)
+static unsigned find_most_voted_cell(const struct rho_passive_paper_search *search, struct cell at,
+                                     struct cell *best)
 {
     uint8_t *counts = search->paper->rows[0];
-    *best = (struct cell){fit->row, fit->column};
-    rho_passive_paper_count_row(search, fit->row, counts);
-    unsigned most = counts[fit->column];
-    for (int row = fit->row - search->near; row <= fit->row + search->near; row++) {
+    *best = at;
+    rho_passive_paper_count_row(search, at.row, counts);
+    unsigned most = counts[at.column];
+    for (int row = at.row - search->near; row <= at.row + search->near; row++) {
         rho_passive_paper_count_row(search, row, counts);
-        for (int column = fit->column - search->near; column <= fit->column + search->near;
-             column++) {
+        for (int column = at.column - search->near; column <= at.column + search->near; column++) {
             if (column >= 0 && column < RHO_PAPER_RHO_CELLS && counts[column] > most) {
                 most = counts[column];
                 *best = (struct cell){row, column};
@@ -133,6 +84,93 @@ static unsigned find_most_voted_cell(const struct rho_passive_paper_search *sear
     return most;
 }
 
+/*
+ * Clears the cells near a peak. A target's votes fill a ridge, the curve rho(theta) of the mean
+ * place of its crossings, of which those of the pair crossed last are at hand; notes their scans.
+ */
+static void clear_ridge(const struct rho_passive_paper_search *search,
+                        struct rho_accumulator_peak *peak)
+{
+    struct rho_passive_paper *paper = search->paper;
+    struct rho_passive_paper_point middle = {0.0f, 0.0f};
+    struct cell from, at = {peak->theta_cell, peak->rho_cell};
+    (void)find_most_voted_cell(search, at, &from);
+    struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, from.row);
+    float count = 0.0f;
+    for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
+        for (; i < paper->scan_end[scan]; i++) {
+            const struct rho_passive_paper_point *point = &paper->points[i];
+            if (rho_passive_paper_column(search, direction, point) == from.column) {
+                count += 1.0f; /* a cell without votes is no peak */
+                middle.x_m += (point->x_m - middle.x_m) / count;
+                middle.y_m += (point->y_m - middle.y_m) / count;
+                peak->mask |= 1u << scan;
+            }
+        }
+    }
+    for (int row = at.row - LINE_NEAR_ROWS; row <= at.row + LINE_NEAR_ROWS; row++) {
+        direction = rho_passive_paper_direction(search, row);
+        int column = rho_passive_paper_column(search, direction, &middle);
+        for (int i = column - LINE_NEAR_COLUMNS; i <= column + LINE_NEAR_COLUMNS; i++) {
+            struct cell cell = wrapped_cell(search, row, i);
+            if (i >= 0 && i < RHO_PAPER_RHO_CELLS) {
+                paper->cells[cell.row][cell.column] = 0;
+            }
+        }
+    }
+    paper->cells[at.row][at.column] = 0;
+}
+
+unsigned rho_passive_paper_take_peak(const struct rho_passive_paper_search *search,
+                                     struct rho_accumulator_peak *peak)
+{
+    unsigned height = 0;
+    struct cell at = {0, 0};
+    for (int row = 0; row < search->rows; row++) {
+        for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
+            if (search->paper->cells[row][column] > height) {
+                height = search->paper->cells[row][column];
+                at = (struct cell){row, column};
+            }
+        }
+    }
+    if (height > 0) {
+        at = find_plateau_middle(search, at, height);
+        *peak = (struct rho_accumulator_peak){
+            .votes = height, .theta_cell = (uint16_t)at.row, .rho_cell = (uint16_t)at.column};
+        clear_ridge(search, peak);
+    }
+    return height;
+}
+
+void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search)
+{
+    struct rho_passive_paper *paper = search->paper;
+    struct rho_accumulator_peak peak;
+    for (int row = 0; row < search->rows; row++) {
+        for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
+            paper->work.cells += paper->cells[row][column] > 0;
+        }
+    }
+    while (rho_passive_paper_take_peak(search, &peak) > 0) {
+        if (paper->num_lines == RHO_MAX_PASSIVE_LINES) {
+            paper->work.lines_dropped = rho_count(paper->work.lines_dropped, 1);
+            continue;
+        }
+        struct rho_passive_paper_direction direction =
+            rho_passive_paper_direction(search, peak.theta_cell);
+        float column = (float)peak.rho_cell + 0.5f - 0.5f * (float)RHO_PAPER_RHO_CELLS;
+        paper->fits[paper->num_lines] = (struct rho_passive_paper_fit){
+            .row = (int16_t)peak.theta_cell, .column = (int16_t)peak.rho_cell};
+        paper->lines[paper->num_lines++] = (struct rho_passive_paper_line){
+            .rho_m = column * paper->config.rho_cell_m + search->middle_x_m * direction.cosine +
+                     search->middle_y_m * direction.sine,
+            .theta_rad = ((float)peak.theta_cell + 0.5f) * RHO_PI / (float)search->rows,
+            .votes = UINT8_MAX,
+            .votes_sum = (uint16_t)(peak.votes - 1u)}; /* cells hold 1 and the votes */
+    }
+}
+
 /* Adds the last pair's crossings in the most voted cell at a line to the line's fit. */
 static void add_pair_crossings_to_fit(struct rho_passive_paper_search *search, unsigned number)
 {
@@ -140,7 +178,7 @@ static void add_pair_crossings_to_fit(struct rho_passive_paper_search *search, u
     struct rho_passive_paper_line *line = &paper->lines[number];
     struct rho_passive_paper_fit *fit = &paper->fits[number];
     struct cell cell;
-    unsigned votes = find_most_voted_cell(search, fit, &cell);
+    unsigned votes = find_most_voted_cell(search, (struct cell){fit->row, fit->column}, &cell);
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, cell.row);
     line->votes = votes < line->votes ? (uint16_t)votes : line->votes;
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {

@@ -69,6 +69,12 @@ void rho_passive_paper_count_row(const struct rho_passive_paper_search *search, 
                                  uint8_t counts[RHO_PAPER_RHO_CELLS]);
 /* Sums the votes of all pairs of sensors into paper->cells, 0 where not all confirm a cell. */
 void rho_passive_paper_vote_pairs(struct rho_passive_paper_search *search);
+/*
+ * Takes the next peak from paper->cells: the highest cell, the middle one of equal neighbours. The
+ * cells near it become 0. Returns its height; 0: all cells are 0, and *peak is unchanged.
+ */
+unsigned rho_passive_paper_take_peak(const struct rho_passive_paper_search *search,
+                                     struct rho_accumulator_peak *peak);
 /* Chooses lines from the cells, most votes first; then fits position and velocity to each. */
 void rho_passive_paper_pick_lines(struct rho_passive_paper_search *search);
 void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search);

@@ -4,7 +4,6 @@
  * votes. They are computed again from the batch, which is unchanged until the next frame.
  */
 #include "passive_paper_search.h"
-#include "policy.h"
 #include "rhotrack/types.h"
 
 static int is_pair_of_search(const struct rho_passive_paper *paper,
@@ -125,35 +124,18 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
     if (status != RHO_OK) {
         return status;
     }
-    struct rho_peak_list list = {
-        .peaks = peaks, .max_peaks = max_peaks, .min_votes = paper->votes_min};
-    const struct rho_peak_distance near = {.theta_cells = (uint16_t)search.rows,
-                                           .rho_cells = RHO_PAPER_RHO_CELLS,
-                                           .theta = LINE_NEAR_ROWS,
-                                           .rho = LINE_NEAR_COLUMNS};
     uint8_t *counts = paper->rows[0];
     rho_passive_paper_cross(&search, *pair);
     for (int row = 0; row < search.rows; row++) {
         rho_passive_paper_count_row(&search, row, counts);
         for (int column = 0; column < RHO_PAPER_RHO_CELLS; column++) {
-            rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = counts[column],
-                                                                     .theta_cell = (uint16_t)row,
-                                                                     .rho_cell = (uint16_t)column});
+            paper->cells[row][column] = counts[column] >= paper->votes_min ? counts[column] : 0;
         }
     }
-    rho_peak_list_sort(&list);
-    *num_peaks = rho_peak_list_suppress(peaks, list.num_peaks, &near, NULL, 0);
-    for (uint32_t n = 0; n < *num_peaks; n++) {
-        const struct rho_passive_paper_direction direction =
-            rho_passive_paper_direction(&search, peaks[n].theta_cell);
-        for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
-            for (; i < paper->scan_end[scan]; i++) {
-                if (rho_passive_paper_column(&search, direction, &paper->points[i]) ==
-                    peaks[n].rho_cell) {
-                    peaks[n].mask |= 1u << scan;
-                }
-            }
-        }
+    search.near = 0; /* neighbours confirm cells of all pairs only */
+    *num_peaks = 0;
+    while (*num_peaks < max_peaks && rho_passive_paper_take_peak(&search, &peaks[*num_peaks]) > 0) {
+        ++*num_peaks;
     }
     return RHO_OK;
 }

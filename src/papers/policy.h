@@ -33,12 +33,12 @@
 /* Fewest bins of rho. Half: more points share one by chance. Twice: more bins to clear. */
 #define BINS_MIN 64u
 
-/* passive_paper_lines.c, passive_paper_view.c */
+/* passive_paper_lines.c */
 
 /*
- * Cells of theta and of rho on either side of a chosen line in which no other line is chosen: the
- * votes of one target spread over neighbouring cells. Half: a target gives several lines. Twice:
- * targets on similar courses hide each other.
+ * Cells of theta on either side of a chosen line, and of rho on either side of its ridge there, in
+ * which no other line is chosen: the votes of one target spread. Half: a target gives several
+ * lines. Twice: targets that cross at one place hide each other.
  */
 #define LINE_NEAR_ROWS 4
 #define LINE_NEAR_COLUMNS 3

@@ -359,26 +359,6 @@ static struct place middle_of_plateau(struct place from)
     return best;
 }
 
-/* The next line, with its height, 0 if there is none; its neighbourhood is set to 0. */
-static inline struct place next_line(int *height)
-{
-    struct place at, line = highest_cell();
-    *height = heights[line.row][line.column];
-    if (*height == 0) {
-        return line;
-    }
-    line = middle_of_plateau(line);
-    for (int i = -4; i <= 4; i++) {
-        for (int j = -3; j <= 3; j++) {
-            int *near = height_at_offset(line, i, j, &at);
-            if (near) {
-                *near = 0;
-            }
-        }
-    }
-    return line;
-}
-
 static inline void expect_line(const struct rho_passive_paper_line *line, struct place at,
                                int height, const struct rho_passive_paper_config *config)
 {
@@ -424,6 +404,58 @@ static int find_most_voted_cell_and_tell_if_sure(const struct plane *plane, stru
         }
     }
     return is_sure;
+}
+
+/* Mean place of the last pair's crossings in a cell; is_doubtful is set if float may add others. */
+static inline struct crossing middle_of_voters(struct place cell, double cell_m)
+{
+    struct crossing middle = {0};
+    double count = 0.0;
+    for (unsigned i = 0; i < num_crossings; i++) {
+        int first, last;
+        columns_of_crossing_in_row(&crossings[i], cell.row, cell_m, &first, &last);
+        is_doubtful |= first != last && (first == cell.column || last == cell.column);
+        if (first == cell.column && last == cell.column) {
+            count += 1.0;
+            middle.x_m += crossings[i].x_m;
+            middle.y_m += crossings[i].y_m;
+            middle.slack_m = fmax(middle.slack_m, crossings[i].slack_m);
+        }
+    }
+    middle.x_m /= count;
+    middle.y_m /= count;
+    return middle;
+}
+
+/*
+ * The next line, with its height, 0 if there is none. The cells beside the curve of its voters'
+ * mean place become 0; is_doubtful is set if float may clear others.
+ */
+static inline struct place next_line(const struct rho_passive_paper_config *config, int *height)
+{
+    struct place at, line = highest_cell();
+    *height = heights[line.row][line.column];
+    if (*height == 0) {
+        return line;
+    }
+    line = middle_of_plateau(line);
+    is_doubtful |=
+        !find_most_voted_cell_and_tell_if_sure(&planes[num_pairs - 1], line, config->votes, &at);
+    const struct crossing middle = middle_of_voters(at, (double)config->rho_cell_m);
+    for (int i = -4; i <= 4; i++) {
+        int first, last;
+        columns_of_crossing_in_row(&middle, line.row + i, (double)config->rho_cell_m, &first,
+                                   &last);
+        is_doubtful |= first != last;
+        for (int column = first - 3; column <= first + 3; column++) {
+            int *near = height_at_offset((struct place){line.row, column}, i, 0, &at);
+            if (near) {
+                *near = 0;
+            }
+        }
+    }
+    heights[line.row][line.column] = 0;
+    return line;
 }
 
 static void add_crossings(struct sums *sums, struct place at, double cell_m)

@@ -35,16 +35,20 @@ static void compare_lines(const struct rho_passive_paper_config *config,
     assert_int_equal(paper.work.cells, num_confirmed);
     unsigned count = 0;
     int height;
-    for (struct place at = next_line(&height); height > 0; at = next_line(&height)) {
+    for (struct place at = next_line(config, &height); height > 0;
+         at = next_line(config, &height)) {
         if (count < RHO_MAX_PASSIVE_LINES) {
             assert_true(count < paper.num_lines);
             expect_line(&paper.lines[count], at, height, config);
             expect_state(&paper.lines[count], at, config);
         }
         count++;
+        agreement->lines++;
+        if (is_doubtful) {
+            return;
+        }
     }
     assert_int_equal(paper.num_lines + paper.work.lines_dropped, count);
-    agreement->lines += paper.num_lines;
 }
 
 /* Compares random scenes, rotated and shifted, so that lines have every direction. */
@@ -263,6 +267,21 @@ static void a_target_gives_one_line_with_its_state(void **state)
     }
 }
 
+/* The ridge of a target far off is steep: over four cells of theta it leaves three of rho. */
+static void a_far_target_gives_one_line(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 40; i++) {
+        const double turn_rad = (i - 20) * 0.04;
+        const struct target target = {70e3 * cos(turn_rad), 70e3 * sin(turn_rad),
+                                      -250.0 * cos(turn_rad), -250.0 * sin(turn_rad)};
+        set_scene(2, 1, &target);
+        search_with_rule(RHO_GHOST_LITERAL, 5);
+        assert_int_equal(paper.num_lines, 1);
+        assert_int_equal(count_lines_near_path(&target), 1);
+    }
+}
+
 /* Targets fly nearly along y: theta is near 0 or pi, whose cells belong to the same lines. */
 static void a_line_at_the_end_of_theta_is_found_once(void **state)
 {
@@ -401,18 +420,18 @@ static void shares_found_and_ghosts_agree_with_known_figures(void **state)
 {
     (void)state;
     static const struct figures figures[] = {
-        {2, 2, 0.05, 1.0, 0.0, 7, RHO_GHOST_NO_RULE, 0.932, 2.46},
-        {2, 2, 0.05, 1.0, 0.0, 7, RHO_GHOST_LITERAL, 0.940, 0.38},
-        {2, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_NO_RULE, 0.844, 2.45},
-        {2, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_LITERAL, 0.851, 0.37},
-        {2, 2, 0.2, 1.0, 0.0, 6, RHO_GHOST_LITERAL, 0.798, 0.83},
-        {2, 2, 0.5, 1.0, 0.0, 5, RHO_GHOST_LITERAL, 0.645, 1.86},
-        {2, 2, 0.1, 0.9, 1.0, 5, RHO_GHOST_NO_RULE, 0.896, 5.90},
-        {2, 2, 0.1, 0.9, 1.0, 5, RHO_GHOST_LITERAL, 0.717, 1.17},
-        {2, 2, 0.1, 0.9, 1.0, 5, RHO_GHOST_SAFE, 0.897, 4.87},
-        {3, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_NO_RULE, 0.355, 0.24},
-        {3, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_LITERAL, 0.346, 0.06},
-        {3, 4, 0.1, 0.9, 1.0, 5, RHO_GHOST_LITERAL, 0.407, 1.10},
+        {2, 2, 0.05, 1.0, 0.0, 7, RHO_GHOST_NO_RULE, 0.916, 2.29},
+        {2, 2, 0.05, 1.0, 0.0, 7, RHO_GHOST_LITERAL, 0.927, 0.21},
+        {2, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_NO_RULE, 0.832, 2.28},
+        {2, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_LITERAL, 0.831, 0.23},
+        {2, 2, 0.2, 1.0, 0.0, 6, RHO_GHOST_LITERAL, 0.769, 0.50},
+        {2, 2, 0.5, 1.0, 0.0, 5, RHO_GHOST_LITERAL, 0.586, 1.32},
+        {2, 2, 0.1, 0.9, 1.0, 5, RHO_GHOST_NO_RULE, 0.854, 5.29},
+        {2, 2, 0.1, 0.9, 1.0, 5, RHO_GHOST_LITERAL, 0.672, 0.74},
+        {2, 2, 0.1, 0.9, 1.0, 5, RHO_GHOST_SAFE, 0.850, 4.13},
+        {3, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_NO_RULE, 0.357, 0.19},
+        {3, 2, 0.1, 1.0, 0.0, 7, RHO_GHOST_LITERAL, 0.348, 0.02},
+        {3, 4, 0.1, 0.9, 1.0, 5, RHO_GHOST_LITERAL, 0.396, 0.88},
     };
     random_state = 7;
     for (unsigned i = 0; i < sizeof figures / sizeof figures[0]; i++) {
@@ -430,6 +449,7 @@ int main(void)
         cmocka_unit_test(rho_agrees_from_either_sensor),
         cmocka_unit_test(rho_of_given_places_is_right),
         cmocka_unit_test(a_target_gives_one_line_with_its_state),
+        cmocka_unit_test(a_far_target_gives_one_line),
         cmocka_unit_test(a_line_at_the_end_of_theta_is_found_once),
         cmocka_unit_test(a_ghost_confirmed_by_one_pair_is_no_line_of_three_sensors),
         cmocka_unit_test(a_line_needs_the_votes_of_every_pair),

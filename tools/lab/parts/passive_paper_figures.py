@@ -10,7 +10,7 @@ import rhotrack
 from parts.passive_scenes import PLACES_M, Scene, Setting
 from parts.passive_runs import RULES
 
-RANGE_MAX_M = 100e3
+RANGE_MAX_M, CELL_M = 100e3, 1000
 NEAR_RAD, NEAR_M = np.radians(6), 3000  # a line this near to a target's is the target's
 TWO, THREE = Setting(2, 2, 0.05), Setting(3, 2, 0.05)  # lines fill few cells
 # Sought among many, so that they show what the paper's figures do. Of two sensors: ghosts lie in
@@ -51,12 +51,29 @@ def search_paper(scene, rule, votes_min, sensors=None):
     return paper_of(rule, votes_min).find(scene.frames(sensors))
 
 
-def lines_matched(lines, scene):
-    """Targets with a line near theirs, and lines near no target's."""
+def near_targets(lines, scene):
+    """(lines, targets): whether the line is near the target's."""
     theta_rad, rho_m = line_off((lines["theta_rad"][:, None], lines["rho_m"][:, None]),
                                 line_of(scene.start))
-    is_near = (theta_rad < NEAR_RAD) & (rho_m < NEAR_M)
+    return (theta_rad < NEAR_RAD) & (rho_m < NEAR_M)
+
+
+def lines_matched(lines, scene):
+    """Targets with a line near theirs, and lines near no target's."""
+    is_near = near_targets(lines, scene)
     return int(is_near.any(axis=0).sum()), int((~is_near.any(axis=1)).sum())
+
+
+def second_lines(lines, scene, rule):
+    """Of the lines near no target's: those for which one target's crossings cast most votes."""
+    strange = lines[~near_targets(lines, scene).any(axis=1)]
+    if not len(strange):
+        return 0
+    left = crossings_left(scene, range(1, scene.of.sensors + 1), rule)
+    theta_rad, rho_m = strange["theta_rad"][:, None], strange["rho_m"][:, None]
+    off_m = np.abs(left[:, 1] * np.cos(theta_rad) + left[:, 2] * np.sin(theta_rad) - rho_m)
+    return sum(int(2 * np.bincount(of.astype(int), minlength=2)[1:].max() > len(of))
+               for of in (left[is_in, 3] for is_in in off_m <= CELL_M / 2))
 
 
 # ---- Scenes ----
@@ -67,7 +84,8 @@ def scene_of(setting):
 
 
 def crossings_left(scene, sensors, rule):
-    """Rows of frame, x_m, y_m, 1 where the crossing is a target's; of all pairs of sensors."""
+    """Rows of frame, x_m, y_m, number of the target from 1, 0 of a ghost; of all pairs of
+    sensors."""
     looks, left = scene.looks(), []
     for k in range(scene.of.frames):
         for a, b in itertools.combinations(sensors, 2):
@@ -75,8 +93,9 @@ def crossings_left(scene, sensors, rule):
             found = rhotrack.ghosts(of_a["bearing_rad"], of_b["bearing_rad"], PLACES_M[a - 1],
                                     PLACES_M[b - 1], RANGE_MAX_M, rule)
             for i, j in np.argwhere(found.reason == "kept"):
+                target = of_a["target_id"][i]
                 left.append((k, found.x_m[i, j], found.y_m[i, j],
-                             of_a["target_id"][i] == of_b["target_id"][j] >= 0))
+                             target + 1 if target == of_b["target_id"][j] else 0))
     return np.array(left, float).reshape(-1, 4)
 
 
@@ -132,7 +151,7 @@ def draw(report):
         left = crossings_left(scene, sensors, rule)
         for which, colour, name in ((1, COLOURS[0], "crossings of targets"),
                                     (0, COLOURS[1], "ghosts")):
-            x_m, y_m = left[left[:, 3] == which, 1:3].T
+            x_m, y_m = left[(left[:, 3] > 0) == which, 1:3].T
             axis.plot(x_m / 1e3, y_m / 1e3, "x", color=colour, label=name, ms=7, mew=1.6)
         draw_map(axis, scene)
         axis.set_title(f"Fig. {number}: feature space, {RULES[rule]}")

@@ -112,19 +112,24 @@ def most_near(plane):
                    for i in range(3) for j in range(3)], axis=0)
 
 
-def lines_in(total, is_accepted):
-    """As the paper chooses: the most votes, then what is not near."""
+def lines_in(total, is_accepted, frames):
+    """As the paper chooses: the most votes, then cells that are not near. A line's ridge is the
+    curve of the mean place of the crossings of its cell, or beside it, in the last pair's frames."""
     left, lines = np.where(is_accepted, total, 0), []
+    places_m = np.concatenate([places_m for places_m, _ in frames])
+    cells = np.floor(places_m @ DIRECTIONS / RHO_CELL_M + RHO_CELLS / 2)
     rows, columns = np.arange(THETA_CELLS)[:, None], np.arange(RHO_CELLS)[None]
     while left.max() > 0 and len(lines) < 24:
         best = np.argwhere(left == left.max())
         row, column = best[len(best) // 2]
         lines.append((THETA_RAD[row], (column + 0.5 - RHO_CELLS / 2) * RHO_CELL_M))
-        off = np.abs(rows - row)
-        is_near = (off <= NEAR_THETA) & (np.abs(columns - column) <= NEAR_RHO)
-        is_near |= (THETA_CELLS - off <= NEAR_THETA) & (
-            np.abs(RHO_CELLS - 1 - columns - column) <= NEAR_RHO)
-        left[is_near] = 0
+        off = np.abs(cells[:, row] - column)
+        middle_m = places_m[off <= max(0, off.min())].mean(axis=0)
+        ridge = np.floor(middle_m @ DIRECTIONS / RHO_CELL_M + RHO_CELLS / 2)[:, None]
+        turned = np.abs(rows - row)
+        left[(np.minimum(turned, THETA_CELLS - turned) <= NEAR_THETA) & (
+            np.abs(columns - ridge) <= NEAR_RHO)] = 0
+        left[row, column] = 0
     return np.array(lines, LINE)
 
 
@@ -134,13 +139,14 @@ def further_run(case, scene):
     pairs = list(itertools.combinations(range(scene.of.sensors), 2))
     found = np.zeros((len(WAYS), len(THRESHOLDS), 2), int)
     for i, (rule, is_joint, is_shared) in enumerate(WAYS.values()):
-        planes = [plane_of(crossings_of(scene, looks, pair, rule, is_joint), is_shared)
-                  for pair in pairs]
+        crossings = [list(crossings_of(scene, looks, pair, rule, is_joint)) for pair in pairs]
+        planes = [plane_of(frames, is_shared) for frames in crossings]
         near = planes if len(pairs) == 1 else [most_near(plane) for plane in planes]
         for j, threshold in enumerate(THRESHOLDS):
             votes_min = math.ceil(SHARES * threshold * scene.of.frames - 1e-9)
             is_accepted = np.min(near, axis=0) >= votes_min
-            found[i, j] = lines_matched(lines_in(np.sum(planes, axis=0), is_accepted), scene)
+            found[i, j] = lines_matched(
+                lines_in(np.sum(planes, axis=0), is_accepted, crossings[-1]), scene)
     return found
 
 
