@@ -146,7 +146,11 @@ rho_passive_paper_init(struct rho_passive_paper *paper, size_t object_size,
 
 /*
  * Adds a frame of bearings to the batch by rho_batch_push, and discards the lines of the last
- * search. Errors: those of rho_batch_push. Stack: 160 bytes.
+ * search.
+ *   fates  in and out, one for each bearing: set those that may vote to RHO_FATE_HELD
+ * Errors: those of rho_batch_push; VALUE also for fates that were not set: a value that is no fate,
+ * or bearings of which none is HELD. A frame of which tracks claim all is pushed without bearings.
+ * Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
                                                       const struct rho_frame *frame,

@@ -60,6 +60,22 @@ enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t o
     return rho_batch_init(&paper->batch, kept.scans, apart_m);
 }
 
+/* False for an array that the caller did not set: a value that is no fate, or no bearing HELD. */
+static int are_fates_set(const struct rho_frame *frame, const uint8_t *fates)
+{
+    uint32_t num = 0, held = 0;
+    for (uint32_t k = 0; k < frame->num_scans; k++) {
+        num = rho_count(num, frame->scans[k].num_bearings);
+    }
+    for (uint32_t i = 0; i < num; i++) {
+        if (fates[i] >= RHO_NUM_FATES) {
+            return 0;
+        }
+        held += fates[i] == RHO_FATE_HELD;
+    }
+    return num == 0 || held > 0;
+}
+
 enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
                                        const struct rho_frame *frame, uint8_t *fates)
 {
@@ -69,7 +85,13 @@ enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
     if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    enum rho_status status = rho_batch_push(&paper->batch, frame, fates, 0);
+    enum rho_status status = rho_batch_accepts(&paper->batch, frame);
+    if (status == RHO_OK && fates && !are_fates_set(frame, fates)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (status == RHO_OK) {
+        status = rho_batch_push(&paper->batch, frame, fates, 0);
+    }
     if (status == RHO_OK) {
         paper->num_lines = 0;
     }

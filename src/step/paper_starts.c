@@ -242,6 +242,9 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
         num += held.scans[i].num_bearings;
     }
     const uint32_t num_held = hold_unclaimed(held.fates, num);
+    for (uint32_t i = 0; num_held == 0 && i < frame->num_scans; i++) {
+        held.scans[i].num_bearings = 0; /* tracks claim all, but the sensors have looked */
+    }
     enum rho_status status = rho_passive_paper_push(paper, &held.frame, held.fates);
     if (status != RHO_OK) {
         return status;

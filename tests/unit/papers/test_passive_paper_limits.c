@@ -212,6 +212,30 @@ static void a_refused_frame_keeps_the_lines_found(void **state)
     assert_int_equal(paper.num_lines, 0);
 }
 
+/* An array that nobody set once took no bearing, and the search found no line, without a word. */
+static void fates_that_were_not_set_are_refused(void **state)
+{
+    (void)state;
+    search_five_frames_and_fill_sixth();
+    memset(full.fates, 0, sizeof full.fates);
+    expect_frame_refused(RHO_ERROR_VALUE);
+    memset(full.fates, 0xa5, sizeof full.fates);
+    expect_frame_refused(RHO_ERROR_VALUE);
+    full.fates[0] = RHO_FATE_HELD;
+    expect_frame_refused(RHO_ERROR_VALUE);
+    /* bearings that tracks claim may be among them */
+    memset(full.fates, RHO_FATE_CLAIMED, sizeof full.fates);
+    full.fates[3] = RHO_FATE_HELD;
+    assert_int_equal(rho_passive_paper_push(&paper, &full.frame, full.fates), RHO_OK);
+    assert_int_equal(paper.batch.num_bearings[5][0], 0);
+    assert_int_equal(paper.batch.num_bearings[5][1], 1);
+    /* sensors that looked and saw nothing */
+    fill_frame(&scene, 6, &full);
+    full.scans[0].num_bearings = full.scans[1].num_bearings = 0;
+    memset(full.fates, 0xa5, sizeof full.fates);
+    assert_int_equal(rho_passive_paper_push(&paper, &full.frame, full.fates), RHO_OK);
+}
+
 /* 256 cells of 1 km hold 100 km of range and half of a base of 56 km to either side. */
 static void sensors_too_far_apart_for_the_cells_are_refused(void **state)
 {
@@ -411,6 +435,7 @@ int main(void)
         cmocka_unit_test(a_wrong_object_size_is_refused),
         cmocka_unit_test(an_object_without_init_is_refused),
         cmocka_unit_test(a_refused_frame_keeps_the_lines_found),
+        cmocka_unit_test(fates_that_were_not_set_are_refused),
         cmocka_unit_test(sensors_too_far_apart_for_the_cells_are_refused),
         cmocka_unit_test(fewer_than_four_frames_make_no_line),
         cmocka_unit_test(one_sensor_makes_no_line),
