@@ -211,7 +211,7 @@ why 'a turning radar, rows with a time each' degrees.csv \
     --set scan_interval_s=0
 printf '[sensor 0]\nx_m = 0\ny_m = 0\nrange_max_m = 500\n' >near.ini
 why 'outside the coverage' xy.csv '30 of 30 plots lie outside the .*range_max_m' --config near.ini
-why 'too fast' xy.csv 'no plots lie on a line .*: scans 2 s apart, 1 plots a scan, v_max_mps=20, ' \
+why 'too fast' xy.csv 'this method found no .*: scans 2 s apart, 1 plots a scan, v_max_mps=20, ' \
     --set v_max_mps=20
 awk 'NR == 1 {print; next} {print; for (i = 0; i < 40; i++) print $0}' xy.csv >crowd.csv
 why 'a limit of work' crowd.csv 'work_max=100 ended [0-9]* of [0-9]* scans before all plots' \

@@ -75,12 +75,11 @@ void no_tracks_reason_print(const struct no_tracks *seen, const struct rho_track
                 "`rhotrack calibrate` measures it\n",
                 counters->tracks_started, value[PARAMETER_PD]);
     } else {
-        fprintf(
-            file,
-            "no plots lie on a line as those of a target would: scans %.3g s apart, %.5g plots a "
-            "scan, v_max_mps=%g, sigma_m=%g; `rhotrack calibrate` "
-            "measures noise and speeds\n",
-            interval_s, (double)seen->plots / (double)seen->scans, value[PARAMETER_V_MAX_MPS],
-            value[PARAMETER_SIGMA_M]);
+        fprintf(file,
+                "this method found no plots that are likelier a target's than false: scans %.3g s "
+                "apart, %.5g plots a scan, v_max_mps=%g, sigma_m=%g; `rhotrack calibrate` measures "
+                "noise and speeds, and `rhotrack initiate` has other methods\n",
+                interval_s, (double)seen->plots / (double)seen->scans, value[PARAMETER_V_MAX_MPS],
+                value[PARAMETER_SIGMA_M]);
     }
 }
