@@ -1025,8 +1025,8 @@ struct rho_message_accumulator {
     int64_t oldest_utime;
     float origin_x_m; /* point from which rho is measured, east, m; range -2e6 .. 2e6 */
     float origin_y_m; /* point from which rho is measured, north, m; range -2e6 .. 2e6 */
-    float rho_min_m; /* lower edge of the accumulator in rho, m */
-    float rho_max_m; /* upper edge of the accumulator in rho, m */
+    float rho_min_m; /* lower edge in rho of the cells that a plane_t shows, m */
+    float rho_max_m; /* upper edge in rho of these cells: beyond them are no votes, m */
     int16_t rho_cells; /* number of cells from rho_min_m to rho_max_m; range 1 .. 32767 */
     int16_t theta_cells; /* number of cells from theta 0 to pi; range 1 .. 32767 */
     float votes_max; /* votes of the fullest cell; range 0 .. 1e9 */

@@ -265,7 +265,7 @@ void rho_show_begin(struct rho_show *show, const struct rho_show_source *source,
  *   buffer  of RHO_SHOW_MAX_SIZE bytes or more
  * Returns the message's channel; NULL: no message is left, or the buffer is too small. Cost: for a
  * part of a ghost matrix rho_passive_paper_ghosts; for an accumulator_t rho_passive_paper_cells,
- * and with a picture rho_hough_plane or rho_passive_paper_plane; for a track
+ * and with a picture rho_hough_plane or rho_passive_paper_plane, twice; for a track
  * rho_tracker_evidence_of. Stack: 4.5 KB with 8 bearings a scan, 7 KB with 16.
  */
 const char *rho_show_next(struct rho_show *show, const struct rho_show_source *source,

@@ -12,10 +12,13 @@
 
 /* An accumulator to be shown. */
 struct shown_accumulator {
-    int64_t newest_us; /* time of its newest scan */
+    int64_t oldest_us, newest_us; /* times of its oldest and newest scan */
     const struct rho_show_source *source;
-    uint32_t votes_per_unit; /* integer units of the accumulator's cells that make one vote */
-    uint16_t height, width;  /* of its picture */
+    uint32_t votes_per_unit;              /* integer units of its cells that make one vote */
+    struct rho_passive_paper_space space; /* of all its cells */
+    uint16_t first_rho, num_rho;          /* cells of rho that are shown */
+    uint16_t height, width;               /* of its picture */
+    int16_t num_scans;
     struct rho_passive_paper_pair pair;
     int16_t sensor_a_id, sensor_b_id; /* of the pair; 0: no pair */
     int8_t method, has_pair;          /* as in the messages */
@@ -63,33 +66,37 @@ static void select_accumulator(const struct rho_show_source *source, unsigned nu
                                      [RHO_HOUGH_IHT] = RHO_MESSAGE_ACCUMULATOR_IHT,
                                      [RHO_HOUGH_NHT_A] = RHO_MESSAGE_ACCUMULATOR_NHT,
                                      [RHO_HOUGH_NHT_C] = RHO_MESSAGE_ACCUMULATOR_NHT};
+    const struct rho_passive_paper *paper = source->paper;
     *accumulator = (struct shown_accumulator){.source = source};
     if (searched_paper_starts(source)) {
         const struct rho_hough *hough = &source->starts->hough;
         struct rho_window *window = &source->starts->window;
+        accumulator->num_scans = (int16_t)window->num_scans;
+        accumulator->oldest_us = rho_window_scan_at(window, 0)->time_us;
         accumulator->newest_us = rho_window_scan_at(window, window->num_scans - 1u)->time_us;
         accumulator->method = methods[hough->config.method];
-        accumulator->height = limit_to_picture_side(hough->theta_cells);
-        accumulator->width = limit_to_picture_side(hough->rho_cells);
+        accumulator->space = (struct rho_passive_paper_space){.rho_max_m = hough->config.rho_max_m,
+                                                              .theta_cells = hough->theta_cells,
+                                                              .rho_cells = hough->rho_cells};
         accumulator->votes_per_unit = RHO_HOUGH_VOTE;
-        return;
+    } else {
+        (void)!rho_passive_paper_space(paper, &accumulator->space); /* searched: no error */
+        accumulator->num_scans = (int16_t)paper->batch.num_scans;
+        accumulator->oldest_us = paper->batch.time_us[0];
+        accumulator->newest_us = paper->batch.time_us[paper->batch.num_scans - 1u];
+        accumulator->is_of_bearings = 1;
+        accumulator->method = RHO_MESSAGE_ACCUMULATOR_PASSIVE_PAPER;
+        accumulator->votes_per_unit = 1;
+        accumulator->has_pair =
+            number > 0 && rho_passive_paper_pair(paper, number - 1u, &accumulator->pair);
     }
-    const struct rho_batch *batch = &source->paper->batch;
-    struct rho_passive_paper_space space = {.theta_cells = 1, .rho_cells = RHO_PAPER_RHO_CELLS};
-    (void)!rho_passive_paper_space(source->paper, &space); /* searched: no error */
-    accumulator->newest_us = batch->time_us[batch->num_scans - 1u];
-    accumulator->is_of_bearings = 1;
-    accumulator->method = RHO_MESSAGE_ACCUMULATOR_PASSIVE_PAPER;
-    accumulator->height = limit_to_picture_side(space.theta_cells);
-    accumulator->width = limit_to_picture_side(space.rho_cells);
-    accumulator->votes_per_unit = 1;
-    accumulator->has_pair =
-        number > 0 && rho_passive_paper_pair(source->paper, number - 1u, &accumulator->pair);
+    accumulator->height = limit_to_picture_side(accumulator->space.theta_cells);
+    accumulator->width = limit_to_picture_side(accumulator->space.rho_cells);
+    accumulator->num_rho = accumulator->space.rho_cells;
     if (accumulator->has_pair) {
-        accumulator->sensor_a_id =
-            rho_clamp_sensor_id(batch->sensors[accumulator->pair.a].sensor_id);
-        accumulator->sensor_b_id =
-            rho_clamp_sensor_id(batch->sensors[accumulator->pair.b].sensor_id);
+        const struct rho_batch_sensor *sensors = paper->batch.sensors;
+        accumulator->sensor_a_id = rho_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
+        accumulator->sensor_b_id = rho_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
     }
 }
 
@@ -105,21 +112,59 @@ uint32_t rho_show_count_accumulators(const struct rho_show *show,
     return planes * messages_of_accumulator(show, &first);
 }
 
-static void make_picture(struct rho_show *show, const struct shown_accumulator *accumulator)
+/* Fills the picture from the window of cells that it shows. */
+static enum rho_status fill_picture(const struct shown_accumulator *accumulator,
+                                    struct rho_votes_picture *picture)
 {
     const struct rho_show_source *source = accumulator->source;
+    if (accumulator->is_of_bearings) {
+        return rho_passive_paper_plane(source->paper,
+                                       accumulator->has_pair ? &accumulator->pair : NULL, picture);
+    }
+    const struct rho_hough_points points = rho_paper_starts_points(source->starts);
+    return rho_hough_plane(&source->starts->hough, &points, RHO_HOUGH_VOTES, picture);
+}
+
+/*
+ * Narrows the window of a picture of all cells to those between the outer columns that have votes,
+ * at least one cell a column. A short range would else fill few columns.
+ */
+static void narrow_window(struct rho_votes_picture *picture)
+{
+    const unsigned width = picture->width, cells = picture->rho_cells;
+    unsigned first = width, end = 0;
+    for (unsigned i = 0; i < picture->height * width; i++) {
+        if (picture->votes[i] > 0) {
+            first = i % width < first ? i % width : first;
+            end = i % width < end ? end : i % width + 1u;
+        }
+    }
+    if (end > 0) {
+        unsigned from = (first * cells + width - 1u) / width;
+        unsigned to = (end * cells + width - 1u) / width;
+        to = to < from + width ? from + width : to;
+        to = to < cells ? to : cells;
+        from = to < from + width ? to - width : from;
+        picture->first_rho = (uint16_t)from;
+        picture->rho_cells = (uint16_t)(to - from);
+    }
+}
+
+static void make_picture(struct rho_show *show, struct shown_accumulator *accumulator)
+{
     struct rho_votes_picture picture = {
         .height = accumulator->height, .width = accumulator->width, .votes = show->config.picture};
-    enum rho_status status = RHO_ERROR_STATE;
     show->votes_max = 0;
-    if (show->config.picture && accumulator->is_of_bearings) {
-        status = rho_passive_paper_plane(
-            source->paper, accumulator->has_pair ? &accumulator->pair : NULL, &picture);
-    } else if (show->config.picture) {
-        const struct rho_hough_points points = rho_paper_starts_points(source->starts);
-        status = rho_hough_plane(&source->starts->hough, &points, RHO_HOUGH_VOTES, &picture);
+    if (!picture.votes || fill_picture(accumulator, &picture) != RHO_OK) {
+        return;
     }
-    for (unsigned i = 0; status == RHO_OK && i < (unsigned)picture.height * picture.width; i++) {
+    narrow_window(&picture);
+    if (picture.rho_cells < accumulator->num_rho && fill_picture(accumulator, &picture) != RHO_OK) {
+        return; /* cannot fail: the window is within the plane */
+    }
+    accumulator->first_rho = picture.first_rho;
+    accumulator->num_rho = picture.rho_cells;
+    for (unsigned i = 0; i < (unsigned)picture.height * picture.width; i++) {
         show->votes_max = picture.votes[i] > show->votes_max ? picture.votes[i] : show->votes_max;
     }
 }
@@ -139,12 +184,6 @@ static enum rho_status write_plots(const struct shown_accumulator *accumulator,
     struct rho_paper_starts *starts = accumulator->source->starts;
     const struct rho_hough_config *config = &starts->hough.config;
     const float share = config->tau * votes_from_units(accumulator, starts->result.votes_max);
-    head->num_scans = (int16_t)starts->window.num_scans;
-    head->oldest_utime = rho_window_scan_at(&starts->window, 0)->time_us;
-    head->rho_min_m = -config->rho_max_m;
-    head->rho_max_m = config->rho_max_m;
-    head->theta_cells = rho_clamp_to_int16(starts->hough.theta_cells);
-    head->rho_cells = rho_clamp_to_int16(starts->hough.rho_cells);
     head->votes_max = votes_from_units(accumulator, starts->result.votes_max);
     head->votes_min = share > config->votes_min ? share : config->votes_min;
     head->num_cells_total = rho_clamp_to_int16(starts->result.num_peaks);
@@ -171,24 +210,16 @@ static enum rho_status write_bearings(const struct rho_show *show,
                                       struct rho_show_output *output)
 {
     struct rho_passive_paper *paper = accumulator->source->paper;
+    const struct rho_passive_paper_space space = accumulator->space;
     struct rho_accumulator_peak peaks[CELLS_MAX];
-    struct rho_passive_paper_space space;
     uint32_t num_peaks = 0;
-    enum rho_status status = rho_passive_paper_space(paper, &space);
-    if (status == RHO_OK && accumulator->has_pair) {
+    enum rho_status status = RHO_OK;
+    if (accumulator->has_pair) {
         status = rho_passive_paper_cells(paper, &accumulator->pair, peaks, CELLS_MAX, &num_peaks);
     }
     if (status != RHO_OK) {
         return status;
     }
-    head->num_scans = (int16_t)paper->batch.num_scans;
-    head->oldest_utime = paper->batch.time_us[0];
-    head->origin_x_m = space.origin_x_m;
-    head->origin_y_m = space.origin_y_m;
-    head->rho_min_m = -space.rho_max_m;
-    head->rho_max_m = space.rho_max_m;
-    head->theta_cells = rho_clamp_to_int16(space.theta_cells);
-    head->rho_cells = rho_clamp_to_int16(space.rho_cells);
     head->votes_max = !show->config.picture && paper->num_lines > 0 && !accumulator->has_pair
                           ? (float)paper->lines[0].votes_sum
                           : (float)show->votes_max;
@@ -225,14 +256,26 @@ static enum rho_status write_accumulator(const struct rho_show *show,
                                          const struct shown_accumulator *accumulator,
                                          struct rho_show_output *output)
 {
-    struct rho_message_accumulator_head head = {.utime = accumulator->newest_us,
-                                                .scan = accumulator->source->step,
-                                                .epoch = accumulator->source->epoch,
-                                                .method = accumulator->method,
-                                                .has_pair = accumulator->has_pair,
-                                                .sensor_a_id = accumulator->sensor_a_id,
-                                                .sensor_b_id = accumulator->sensor_b_id,
-                                                .not_sent = output->not_sent};
+    const struct rho_passive_paper_space *space = &accumulator->space;
+    const float cell_m = 2.0f * space->rho_max_m / (float)space->rho_cells;
+    const unsigned end_rho = (unsigned)accumulator->first_rho + accumulator->num_rho;
+    struct rho_message_accumulator_head head = {
+        .utime = accumulator->newest_us,
+        .scan = accumulator->source->step,
+        .epoch = accumulator->source->epoch,
+        .method = accumulator->method,
+        .has_pair = accumulator->has_pair,
+        .sensor_a_id = accumulator->sensor_a_id,
+        .sensor_b_id = accumulator->sensor_b_id,
+        .num_scans = accumulator->num_scans,
+        .oldest_utime = accumulator->oldest_us,
+        .origin_x_m = space->origin_x_m,
+        .origin_y_m = space->origin_y_m,
+        .rho_min_m = (float)accumulator->first_rho * cell_m - space->rho_max_m,
+        .rho_max_m = (float)end_rho * cell_m - space->rho_max_m,
+        .theta_cells = rho_clamp_to_int16(space->theta_cells),
+        .rho_cells = rho_clamp_to_int16(accumulator->num_rho),
+        .not_sent = output->not_sent};
     output->channel = RHO_MESSAGE_ACCUMULATOR_CHANNEL;
     return accumulator->is_of_bearings ? write_bearings(show, accumulator, &head, output)
                                        : write_plots(accumulator, &head, output);

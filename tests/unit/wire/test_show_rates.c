@@ -143,9 +143,10 @@ static void accumulator_messages_hold_the_searchs_peaks(void **state)
         assert_int_equal(accumulator.method, names[method]);
         assert_int_equal(accumulator.has_pair, 0);
         assert_int_equal(accumulator.num_scans, 4);
-        assert_float_equal(accumulator.rho_min_m, -5000.0, 0.0);
-        assert_float_equal(accumulator.rho_max_m, 5000.0, 0.0);
-        assert_int_equal(accumulator.rho_cells, 400);
+        assert_in_range(accumulator.rho_cells, 64, 400);
+        assert_float_equal(accumulator.rho_max_m - accumulator.rho_min_m,
+                           25.0 * accumulator.rho_cells, 0.0);
+        assert_true(accumulator.rho_min_m >= -5000.0f && accumulator.rho_max_m <= 5000.0f);
         assert_int_equal(accumulator.theta_cells, 158);
         assert_float_equal(accumulator.votes_max, starts.result.votes_max / 65536.0, 1e-4);
         assert_float_equal(accumulator.votes_min, 0.5 * accumulator.votes_max, 1e-4);
@@ -172,15 +173,29 @@ static void accumulator_messages_hold_the_searchs_peaks(void **state)
     }
 }
 
+/* Number of the 64 columns of a picture of all cells in which there are votes, and the first. */
+static unsigned columns_with_votes(const uint32_t *all, unsigned *first)
+{
+    unsigned last = 0;
+    *first = 64;
+    for (unsigned i = 0; i < 158 * 400; i++) {
+        const unsigned x = i % 400 * 64 / 400;
+        *first = all[i] > 0 && x < *first ? x : *first;
+        last = all[i] > 0 && x > last ? x : last;
+    }
+    return last + 1 - *first;
+}
+
 /*
  * The four parts are 64 rows: the largest value of each block of cells, in 127ths of the overall
- * maximum.
+ * maximum. The blocks are of the cells between the outer columns with votes.
  */
 static void a_plane_message_is_the_reduced_picture_of_votes(void **state)
 {
     (void)state;
     static uint32_t all[158 * 400];
     static struct rho_message_plane plane;
+    static struct rho_message_accumulator accumulator;
     start_with_method(RHO_HOUGH_MHT, RHO_TRACKER_BEST);
     show_kinds(1u << RHO_SHOW_VOTES, 1000);
     for (int k = 0; k < 4; k++) {
@@ -190,7 +205,13 @@ static void a_plane_message_is_the_reduced_picture_of_votes(void **state)
     const struct rho_hough_points points = rho_paper_starts_points(&starts);
     struct rho_votes_picture whole = {.height = 158, .width = 400, .votes = all};
     assert_int_equal(rho_hough_plane(&starts.hough, &points, RHO_HOUGH_VOTES, &whole), RHO_OK);
-    unsigned filled = 0, fullest = 0;
+    unsigned filled = 0, fullest = 0, first;
+    const unsigned columns = columns_with_votes(all, &first);
+    const unsigned from = (first * 400 + 63) / 64, end = ((first + columns) * 400 + 63) / 64;
+    READ(accumulator, ACCUMULATOR, 0, &accumulator);
+    assert_true(columns < 64);
+    assert_float_equal(accumulator.rho_min_m, -5000.0 + 25.0 * from, 0.0);
+    assert_float_equal(accumulator.rho_max_m, -5000.0 + 25.0 * end, 0.0);
     for (unsigned part = 0; part < 4; part++) {
         READ(plane, PLANE, part, &plane);
         assert_int_equal(plane.part, part);
@@ -202,7 +223,9 @@ static void a_plane_message_is_the_reduced_picture_of_votes(void **state)
             for (unsigned x = 0; x < 64; x++) {
                 uint32_t most = 0;
                 for (unsigned i = 0; i < 158 * 400; i++) {
-                    if (i / 400 * 64 / 158 == 16 * part + y && i % 400 * 64 / 400 == x) {
+                    const unsigned cell = i % 400 - from; /* wraps before the window */
+                    if (i / 400 * 64 / 158 == 16 * part + y && cell < end - from &&
+                        cell * 64 / (end - from) == x) {
                         most = all[i] > most ? all[i] : most;
                     }
                 }
@@ -215,6 +238,41 @@ static void a_plane_message_is_the_reduced_picture_of_votes(void **state)
     }
     assert_true(filled > 100 && filled < 64 * 64);
     assert_true(fullest >= 1);
+}
+
+/* The scene of 10 km is in 4 of 64 columns of a range of +-100 km: the plane shows these. */
+static void a_plane_spans_the_cells_that_have_votes(void **state)
+{
+    (void)state;
+    for (int method = RHO_HOUGH_HT; method <= (int)RHO_HOUGH_MHT; method++) {
+        static struct rho_message_accumulator accumulator;
+        static struct rho_message_plane plane;
+        struct rho_hough_config wide;
+        uint8_t has_votes[64] = {0};
+        unsigned columns = 0;
+        start_with_method((enum rho_hough_method)method, RHO_TRACKER_BEST);
+        wide = starts.hough.config;
+        wide.rho_max_m = 100e3f;
+        wide.rho_cell_m = 100.0f;
+        assert_int_equal(rho_hough_init(&starts.hough, sizeof starts.hough, &wide), RHO_OK);
+        show_kinds(1u << RHO_SHOW_VOTES, 1000);
+        for (int k = 0; k < 4; k++) {
+            step_plots(k, CLUTTER);
+            collect_messages(0, report.time_us);
+        }
+        READ(accumulator, ACCUMULATOR, 0, &accumulator);
+        assert_true(accumulator.rho_min_m >= -10e3f && accumulator.rho_max_m <= 10e3f);
+        for (unsigned part = 0; part < 4; part++) {
+            READ(plane, PLANE, part, &plane);
+            for (unsigned i = 0; i < 16 * 64; i++) {
+                has_votes[i % 64] |= plane.rows[i / 64].votes[i % 64] > 0;
+            }
+        }
+        for (unsigned x = 0; x < 64; x++) {
+            columns += has_votes[x];
+        }
+        assert_true(columns >= 16);
+    }
 }
 
 /* A late scan or a window that is not full has no search, and so no message. */
@@ -641,6 +699,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(accumulator_messages_hold_the_searchs_peaks),
         cmocka_unit_test(a_plane_message_is_the_reduced_picture_of_votes),
+        cmocka_unit_test(a_plane_spans_the_cells_that_have_votes),
         cmocka_unit_test(without_a_search_no_accumulator_is_sent),
         cmocka_unit_test(a_track_started_by_nht_has_the_evidence_of_its_line),
         cmocka_unit_test(hypotheses_messages_hold_those_of_the_track),
