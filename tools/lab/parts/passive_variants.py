@@ -113,8 +113,8 @@ def most_near(plane):
 
 
 def lines_in(total, is_accepted, frames):
-    """As the paper chooses: the most votes, then cells off its ridge, the curve of the mean place of
-    the crossings of its cell, or beside it, in the last pair's frames."""
+    """As the paper chooses: the most votes, then cells off its ridge, the curve of the mean place
+    of the crossings of its cell, or beside it, in the last pair's frames."""
     left, lines = np.where(is_accepted, total, 0), []
     places_m = np.concatenate([places_m for places_m, _ in frames])
     cells = np.floor(places_m @ DIRECTIONS / RHO_CELL_M + RHO_CELLS / 2)
