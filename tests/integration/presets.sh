@@ -24,6 +24,12 @@ for file in presets/*.c; do
     check '... in 50 lines' test "$(wc -l <"$file")" -le 50
 done
 
+papers() {
+    cc -std=c99 -Wall -Wextra -Werror -I"$root/include" -o papers \
+        "$root/tools/examples/papers/papers.c" "$library" -lm && ./papers >stdout
+}
+check "each paper's method finds its target" papers
+
 # ---- seeded faults ----
 loses() { # program, sed command on the file, file
     cp "$root/tools/examples/presets/$3" presets/
