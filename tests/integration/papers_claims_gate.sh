@@ -32,6 +32,9 @@ check 'a test that is not there is seen' seen "tables/$table" \
 check 'a test in Python that is not there is seen' seen "tables/$table" \
     's/test_the_papers_method$/test_no_method/' \
     'no test test_no_method in tests/lab/test_passive.py'
+check 'a test that does not call the code is seen' seen "tables/$table" \
+    '/^    tests\/unit\/bearings\/test_ghost_matrix.c figure_1_of_the_paper_keeps/d' \
+    "\\[step 1.1\\]: no test of it calls rho_ghost_fill in src/bearings/ghost_matrix.c"
 check 'a row that is left out is seen' seen "tables/$table" 's/^\[equation 2\]/[equation 20]/' \
     "$table: no row equation 2"
 check 'a key that is none is seen' seen "tables/$table" '0,/^says/s//sais/' 'no key sais'

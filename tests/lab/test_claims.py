@@ -65,6 +65,7 @@ class Tables(unittest.TestCase):
                 (SET + MEASURED.replace("{nht:.1f}", "{mht:.1f}"), "shown: no figure mht"),
                 (SET + MEASURED.replace("holds = nht < 1\n", ""), "does not say when it holds"),
                 (SET + MEASURED + "lost = the page\n", "has holds and lost"),
+                (SET + "[equation 2]\nsays = so\ndiffers = so\n" + CODE, "code or test alone"),
                 (SET + MEASURED.replace("ht, nht: lab", "ht nht lab"), "measured is NAME"),
                 (SET + MEASURED.replace("HT|NHT", "HT|NHT|MHT"), "2 names of 3 figures"),
                 (SET + MEASURED.replace(" by noise_m^2", ""), "at is TEXT"),
@@ -116,6 +117,11 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(self.judged(tested, passed=False)[0], "fails")
         self.assertEqual(self.judged(tested + "lost = the page\n"),
                          ("cannot be known", "1 of 1 tests pass", "lost: the page"))
+        self.assertEqual(self.judged(tested + "differs = half of it\n"),
+                         ("differs", "1 of 1 tests pass", "half of it"))
+        self.assertEqual(self.judged(tested + "differs = half of it\n", passed=False)[0], "fails")
+        self.assertEqual(self.judged("[equation 2]\nsays = so\ndiffers = nothing computes it\n"),
+                         ("differs", "", "nothing computes it"))
 
     def test_tests_are_run(self):
         c, python = "tests/unit/papers/test_votes_picture.c", "tests/lab/test_claims.py"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Checks the register of the papers' claims: the tables tools/lab/claims/*.ini are valid, each
-file, function and test that they name exists, and the page tools/lab/CLAIMS.md has a verdict for
-each row.
+file, function and test that they name exists, a row's test in C calls its code in src, and the page
+tools/lab/CLAIMS.md has a verdict for each row.
 
 Usage: papers_claims_register.py [TABLES [PAGE]]
 Prints a line for each fault; exit 1 if there is one.
@@ -19,7 +19,7 @@ sys.dont_write_bytecode = True
 
 from parts import read_claims as table
 
-VERDICT = re.compile(r"\*\*(holds|fails|cannot be known|definition|not measured)\*\*")
+VERDICT = re.compile(r"\*\*(holds|differs|fails|cannot be known|definition|not measured)\*\*")
 
 
 @functools.cache
@@ -46,6 +46,39 @@ def tests_in_file(file):
     return set(re.findall(r"cmocka_unit_test\w*\((\w+)", path.read_text(encoding="utf-8")))
 
 
+@functools.cache
+def words_of_test(file):
+    """All words of a C test file and of the headers beside it that it includes."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    words = set(re.findall(r"\w+", text))
+    for name in re.findall(r'#include "(\w+\.h)"', text):
+        for path in (ROOT / "tests" / "unit").rglob(name):
+            words |= words_of_test(path.relative_to(ROOT).as_posix())
+    return words
+
+
+@functools.cache
+def called_in_src():
+    """{function: words of its body} of the library."""
+    words = {}
+    for path in (ROOT / "src").rglob("*.c"):
+        for name, body in re.findall(r"^[a-z][\w \*\n]*?\b(\w+)\([^;{}]*\)\n\{\n(.*?)^\}",
+                                     path.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
+            words.setdefault(name, set()).update(re.findall(r"\w+", body))
+    return words
+
+
+@functools.cache
+def reached_by_test(file):
+    """Functions of the library that a C test calls, by itself or through others."""
+    reached, left = set(), words_of_test(file) & called_in_src().keys()
+    while left:
+        name = left.pop()
+        reached.add(name)
+        left |= called_in_src()[name] & called_in_src().keys() - reached
+    return reached
+
+
 def faults_of_row(row):
     for what, pairs, names in (("function", row.code, functions_in_file),
                                ("test", row.test, tests_in_file)):
@@ -54,6 +87,11 @@ def faults_of_row(row):
                 yield f"{row.file}: [{row.name}]: no file {file}"
             elif name not in names(file):
                 yield f"{row.file}: [{row.name}]: no {what} {name} in {file}"
+    for file, name in row.code:
+        if row.test and file.startswith("src/") and name in (functions_in_file(file) or ()) and (
+                not any(of.endswith(".py") or name in reached_by_test(of)
+                        for of, _ in row.test if tests_in_file(of) is not None)):
+            yield f"{row.file}: [{row.name}]: no test of it calls {name} in {file}"
 
 
 def faults_of_page(page, papers):

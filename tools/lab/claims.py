@@ -25,7 +25,7 @@ RUNS = 50  # the paper's own number; passive has as many of its shares
 EXPERIMENTS = {"papers-initiation": [], "maneuver": [],
                "passive": ["--part", "pruning", "paper", "claims"]}
 PAGE = experiment.ROOT / "tools" / "lab" / "CLAIMS.md"
-VERDICTS = ("holds", "fails", "cannot be known", "definition", "not measured")
+VERDICTS = ("holds", "differs", "fails", "cannot be known", "definition", "not measured")
 GROUPS = (("Equations", "equation"), ("Steps", "step"), ("Figures", "figure"), ("Tables", "table"),
           ("Numbers and what else is said", ""))
 HEAD = """\
@@ -38,6 +38,7 @@ figure of ours is entered by hand.
 | verdict | meaning |
 |---|---|
 | holds | its figures meet its condition; without figures: it is computed so, and its tests passed |
+| differs | the library computes something else, or nothing: what |
 | fails | they do not: why, and at which noise it holds, if at any |
 | cannot be known | the copy of the paper has lost what decides; behind it: what is taken instead |
 | definition | nothing is computed from it |
@@ -164,6 +165,8 @@ def judged_row(row, figures, results):
         where = table.where_else(row, figures) if row.at else ""
         return "holds" if held else "fails", ours, "; ".join(part for part in (why, where) if part)
     failed = [test for test in row.test if not results.get(test)]
+    if "differs" in row.texts and not failed:
+        return "differs", tests_passed_text(row, results), row.texts["differs"]
     if failed:
         return "fails", "", f"its test {failed[0][1]} does not pass"
     return "holds", tests_passed_text(row, results), why

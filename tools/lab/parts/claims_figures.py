@@ -155,7 +155,9 @@ def figures():
             "table_1": {"crossings": crossings(paper.straight(paper.TABLE_1))},
             "table_3": {"crossings": crossings(paper.TABLE_3), "scans": len(paper.TABLE_3),
                         "lasts_s": (len(paper.TABLE_3) - 1) * paper.TABLE_3_INTERVAL_S,
-                        "clutter_plots": 10 * paper.area_m2(paper.TABLE_3_BOX_M) / 1e6},
+                        "clutter_plots": 10 * paper.area_m2(paper.TABLE_3_BOX_M) / 1e6,
+                        "track_box_plots": 10 * float(np.prod(np.ptp(np.reshape(
+                            paper.TABLE_3, (-1, 2)), axis=0))) / 1e6},
             "tolerances": tolerances(), "run_times": run_times(), "beam": beam(), "fade": fade(),
             "confidence": confidence(), "noise_II": at_noises(papers.II, 0),
             "noise_IV": at_noises(papers.IV, 1), "bearing_noise": at_bearing_noises()}

@@ -21,9 +21,10 @@ beginnings of their paths) at work, and what it shows. All others are rows:
                figures of its objects with the same MEMBER, and the expression
   lost         what the paper's text does not say, and what is taken instead
   definition   why nothing is computed
+  differs      what is computed instead
 
-A row has `holds` with `measured`; or `lost`; or `definition`; or code and test alone, which is held
-where its tests pass.
+A row has `holds` with `measured`; or `lost`; or `definition`; or `differs`; or code and test alone,
+which is held where its tests pass. differs has code and test, too, or neither: nothing computes it.
 """
 import ast
 import configparser
@@ -34,7 +35,7 @@ from dataclasses import dataclass, field
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 FOLDER = ROOT / "tools" / "lab" / "claims"
 KEYS = {"says", "code", "test", "measured", "paper", "shown", "holds", "why", "at", "at_measured",
-        "at_holds", "lost", "definition"}
+        "at_holds", "lost", "definition", "differs"}
 FUNCTIONS = {"min": min, "max": max, "abs": abs}
 STEP = re.compile(r"\.?([\w -]+)|\[(\d+)\]|\[([^\]]+)\]")
 
@@ -132,7 +133,7 @@ def row_of(file, name, section):
     row.test = pairs_of(row, "test", section.get("test"))
     row.measured = figures_of(row, "measured", section.get("measured"))
     names = {figure[0] for figure in row.measured}
-    kinds = [key for key in ("holds", "lost", "definition") if key in section]
+    kinds = [key for key in ("holds", "lost", "definition", "differs") if key in section]
     if len(kinds) > 1:
         raise row.fault(f"has {' and '.join(kinds)}")
     if row.measured and not ("holds" in section or "lost" in section):
@@ -141,6 +142,8 @@ def row_of(file, name, section):
         if not row.measured:
             raise row.fault("holds, and nothing is measured")
         check_expression(row, "holds", section["holds"], names)
+    if "differs" in section and bool(row.code) != bool(row.test):
+        raise row.fault("differs, and has code or test alone")
     if not kinds and not (row.code and row.test):
         raise row.fault("has neither figures nor code and test")
     if row.measured and "shown" not in section:
