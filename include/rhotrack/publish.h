@@ -256,7 +256,7 @@ RHO_MUST_CHECK enum rho_status rho_show_init(struct rho_show *show, size_t size,
  * Plans the messages of a step; messages of the step before that were not written are dropped.
  *   now_us  clock of the rates; where it goes back the rates begin anew
  * Nothing is planned without an initialised show, a tracker or a report. Cost: tracks, and
- * pairs of sensors. Stack: 340 bytes.
+ * pairs of sensors. Stack: 360 bytes.
  */
 void rho_show_begin(struct rho_show *show, const struct rho_show_source *source, int64_t now_us);
 
