@@ -230,8 +230,6 @@ struct rho_node {
     uint8_t has_closed;
     uint8_t done;         /* enum rho_node_due: what the last call for steps has done */
     uint8_t next_learned; /* place of the sensor whose learned_t rho_node_learned makes next */
-    /* successive refused scans of each sensor of the frames */
-    uint8_t refused_scans[RHO_MAX_PASSIVE_SENSORS];
 
     struct rho_report report; /* report of the last step */
     struct rho_scan_assembler assembler;

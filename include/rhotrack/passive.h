@@ -3,23 +3,18 @@
  * passive: track initiation from bearings of two to RHO_MAX_PASSIVE_SENSORS sensors, which may move
  * and look at times of their own. Sensors at one place support each other and do not cross.
  *
- * Every pair of bearings of two sensors crosses somewhere, at a target or at a ghost. A batch of
- * scans is searched in five steps:
+ * A batch of looks is searched in four steps (src/DESIGN.md derives them):
  *
- *   1 cross     all pairs of sensors, scan by scan; ghosts are pruned (ghost), and with three
- *               sensors or more a crossing needs a bearing of a third sensor
- *   2 vote      crossings vote for lines (rho, theta), spread according to their covariance; a cell
- *               counts the distinct scans that vote for it
- *   3 propose   pairs of a line's crossings give hypotheses of constant velocity; those that most
- *               bearings agree with are fitted to the bearings (Gauss-Newton, nearest bearing of
- *               each scan and sensor)
- *   4 select    the set of tracks with the highest total score in which no bearing counts twice
- *   5 repeat    steps 1 to 3 with the bearings that no track has claimed, with fewer votes and
- *               without the third sensor; then one selection from all candidates
+ *   1 cross     all pairs of sensors, row by row; of three sensors or more another one must have a
+ *               bearing towards a crossing
+ *   2 propose   two crossings are a hypothesis of constant velocity; those that most bearings agree
+ *               with are fitted to the bearings (Gauss-Newton, nearest bearing of each look)
+ *   3 select    the set of tracks with the highest total score in which no bearing counts twice
+ *   4 repeat    1 and 2 with the bearings that no track has claimed, without the third sensor; then
+ *               one selection from all candidates
  *
- * Source: the passive Hough transform paper (see bearing_crossing.h) for steps 1 and 2, in which
- * lines of crossings are the tracks. A line has no time, and ghosts form lines too: src/DESIGN.md
- * derives steps 3 to 5.
+ * Source: the passive Hough transform paper (see bearing_crossing.h) for step 1 and the idea that
+ * targets are where crossings line up; its own votes are in passive_paper.h.
  *
  * Stack: 64 bytes at most where nothing else is said.
  */
@@ -30,7 +25,6 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/detail/ghost_matrix.h"
 #include "rhotrack/detail/recent_bearing_frames.h"
 #include "rhotrack/types.h"
 
@@ -51,7 +45,6 @@ struct rho_passive_config {
      * share is required of all looks
      */
     float hits_min;
-    enum rho_ghost_rule rule; /* rule by which ghosts are pruned in step 1 */
     /* rate of false tracks that reach the score start_mnat: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
 };
@@ -73,11 +66,11 @@ struct rho_passive_track {
 
 /* Counters of a search, and of items left out for lack of room. All saturate. */
 struct rho_passive_work {
-    /* first pass: crossings of all pairs of bearings, and those pruned as ghosts */
+    /* first pass: pairs of bearings crossed, and those that tell no place, or lack support */
     uint32_t crossings, ghosts;
     uint32_t points_dropped; /* crossings beyond RHO_MAX_PASSIVE_POINTS, the least certain ones */
-    uint32_t hypotheses; /* pairs of crossings whose agreement with the bearings was computed */
-    uint32_t fits; /* fits of a state to bearings */
+    uint32_t hypotheses;     /* pairs of crossings whose agreement with the bearings was computed */
+    uint32_t fits;           /* fits of a state to bearings */
     uint32_t candidates_dropped; /* candidates beyond RHO_MAX_PASSIVE_CANDIDATES */
 };
 
@@ -161,8 +154,7 @@ struct rho_passive {
 };
 
 /*
- * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, the
- * safe rule. Constant cost.
+ * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65. Constant cost.
  */
 void rho_passive_config_default(struct rho_passive_config *config);
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * final_tracks: after the first pass the best set of candidates claims its
- * bearings; after the second pass the best set becomes the tracks of the search. The margin of each
- * track: total score of the best set of tracks minus that of the best set without this track. A set
- * with a higher total that is found becomes the best set.
+ * final_tracks: after the first pass the best set of candidates claims its bearings; after the
+ * second pass it becomes the tracks of the search. The margin of each: total score of the best set
+ * minus that of the best set without its target.
  */
 #include <string.h>
 

@@ -10,32 +10,15 @@
 #include "policy.h"
 #include "rhotrack/types.h"
 
-/* The known track with this identity; NULL: none. */
-static struct rho_passive_known *find_known(struct rho_passive_known *known, uint32_t num_known,
-                                            uint32_t track_id)
+/* Whether nobody has the bearing, or one whom a challenge may take it from. */
+static int is_in_play(const struct rho_passive_search *search, uint32_t track_id)
 {
-    for (uint32_t i = 0; i < num_known; i++) {
-        if (known[i].track_id == track_id) {
-            return &known[i];
+    for (uint32_t i = 0; i < search->num_known; i++) {
+        if (search->known[i].track_id == track_id) {
+            return !search->known[i].is_safe;
         }
     }
-    return 0;
-}
-
-void rho_passive_release(struct rho_passive *passive, struct rho_passive_known *known,
-                         uint32_t num_known)
-{
-    struct rho_batch *batch = &passive->batch;
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
-                struct rho_batch_owner *owner = &batch->bearings[k][s][i].owner;
-                if (!find_known(known, num_known, owner->track_id)) {
-                    owner->track_id = 0;
-                }
-            }
-        }
-    }
+    return track_id == 0 || search->known; /* in a challenge, owners that are not known are gone */
 }
 
 void rho_passive_block_bearings(struct rho_passive_search *search)
@@ -45,12 +28,10 @@ void rho_passive_block_bearings(struct rho_passive_search *search)
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
-                const uint32_t track_id = batch->bearings[k][s][i].owner.track_id;
-                const struct rho_passive_known *owner =
-                    find_known(search->known, search->num_known, track_id);
-                passive->is_claimed[k][s][i] = track_id == 0 || (owner && !owner->is_safe)
-                                                   ? RHO_PASSIVE_FREE
-                                                   : RHO_PASSIVE_BLOCKED;
+                passive->is_claimed[k][s][i] =
+                    is_in_play(search, batch->bearings[k][s][i].owner.track_id)
+                        ? RHO_PASSIVE_FREE
+                        : RHO_PASSIVE_BLOCKED;
             }
         }
     }
@@ -66,10 +47,10 @@ static void claim_taken(const struct rho_passive_search *search, uint32_t track_
     candidate->score_nat = 0.0f;
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
-            float gain_nat = batch->was_seen[k][s] &&
-                                     rho_passive_is_in_view(search, k, s, candidate->state_m)
-                                 ? search->miss_nat
-                                 : 0.0f;
+            float gain_nat =
+                batch->was_seen[k][s] && rho_passive_is_in_view(search, k, s, candidate->state_m)
+                    ? search->miss_nat
+                    : 0.0f;
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
                 const struct rho_batch_owner *owner = &batch->bearings[k][s][i].owner;
                 if (owner->track_id == track_id) {
@@ -101,10 +82,10 @@ void rho_passive_list_known(struct rho_passive_search *search)
             known->y_m - search->middle_y_m - taken.state_m[RHO_PASSIVE_DY];
         memcpy(fitted.state_m, taken.state_m, sizeof fitted.state_m);
         claim_taken(search, known->track_id, &taken);
-        rho_passive_fit_nearest(search, fitted.state_m, 1);
-        rho_passive_claim_nearest(search, 1, &fitted);
-        const int is_better = rho_passive_score_claimed(search, &fitted, &chi2) &&
-                              fitted.score_nat > taken.score_nat;
+        rho_passive_fit_nearest(search, fitted.state_m);
+        rho_passive_claim_nearest(search, &fitted);
+        const int is_better =
+            rho_passive_score_claimed(search, &fitted, &chi2) && fitted.score_nat > taken.score_nat;
         struct rho_passive_candidate *candidate = &passive->candidates[passive->num_candidates++];
         *candidate = is_better ? fitted : taken;
         candidate->score_nat += KNOWN_NAT;

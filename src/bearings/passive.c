@@ -21,7 +21,6 @@ void rho_passive_config_default(struct rho_passive_config *config)
                                           .pd = 0.9f,
                                           .field_of_view_rad = RHO_PI,
                                           .hits_min = 0.65f,
-                                          .rule = RHO_GHOST_SAFE,
                                           .false_tracks_per_hour = 1.0f};
 }
 
@@ -33,8 +32,7 @@ static int is_usable(const struct rho_passive_config *config)
            rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->field_of_view_rad, 0.01f, RHO_TWO_PI) &&
            rho_is_within(config->hits_min, 0.1f, 1.0f) &&
-           rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f) &&
-           (unsigned)config->rule <= RHO_GHOST_SAFE;
+           rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f);
 }
 
 enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size,
@@ -167,7 +165,6 @@ enum rho_status rho_passive_challenge(struct rho_passive *passive, struct rho_pa
     if (num_rivals > RHO_MAX_PASSIVE_TRACKS) {
         return RHO_ERROR_CAPACITY;
     }
-    rho_passive_release(passive, known, num_known);
     return search_batch(passive, known, num_known);
 }
 

@@ -1,36 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_crossings: phase 1 of the search. Bearings of two sensors in one scan cross; crossings
- * that must be ghosts are pruned, and of three sensors or more another one must support a crossing.
+ * passive_crossings: phase 1 of the search. Bearings of two sensors in one scan cross; of three
+ * sensors or more another one must support a crossing.
  */
-#include <string.h>
-
 #include "passive_search.h"
 #include "policy.h"
 #include "rhotrack/types.h"
 
-/* The unclaimed bearings of two sensors in one scan, with their indices in the batch. */
+/* Two sensors in one scan. */
 struct sensor_pair {
     unsigned scan, a, b;
-    unsigned num_a, num_b;
-    float bearings_a_rad[RHO_MAX_BEARINGS], bearings_b_rad[RHO_MAX_BEARINGS];
-    uint8_t index_a[RHO_MAX_BEARINGS], index_b[RHO_MAX_BEARINGS];
+    struct rho_crossing_base base;
 };
-
-/* Collects a sensor's bearings in a scan, in the second pass only unclaimed ones. */
-static unsigned collect_bearings(const struct rho_passive_search *search, unsigned scan,
-                                 unsigned sensor, float *bearings_rad, uint8_t *index)
-{
-    const struct rho_passive *passive = search->passive;
-    unsigned count = 0;
-    for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
-        if (passive->is_claimed[scan][sensor][i] <= !search->is_second) {
-            index[count] = (uint8_t)i;
-            bearings_rad[count++] = passive->batch.bearings[scan][sensor][i].bearing_rad;
-        }
-    }
-    return count;
-}
 
 /* Sigma of a target's way in this time. */
 static float sigma_of_way_m(const struct rho_passive_search *search, float steps)
@@ -66,9 +47,15 @@ static int has_bearing_towards(const struct rho_passive_search *search, unsigned
     return 0;
 }
 
+static int is_at_place_of(const struct rho_passive_look *look, const struct rho_passive_look *other)
+{
+    return rho_square(look->x_m - other->x_m) + rho_square(look->y_m - other->y_m) <
+           rho_square(RHO_CROSSING_BASE_MIN_M);
+}
+
 /*
- * In the first pass, with three sensors or more: all but one of the sensors besides the pair that
- * looked, and at least one, must have a bearing towards the crossing.
+ * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and at
+ * least one, must have a bearing towards the crossing, from places of their own.
  */
 static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
                         const struct rho_passive_point *point)
@@ -77,8 +64,10 @@ static int is_supported(const struct rho_passive_search *search, const struct se
     if (num_sensors < 3 || search->is_second) {
         return 1;
     }
+    const struct rho_passive_look *at = search->at[point->scan];
     for (unsigned s = 0; s < num_sensors; s++) {
-        support += s != pair->a && s != pair->b && has_bearing_towards(search, s, point);
+        support += !is_at_place_of(&at[s], &at[pair->a]) && !is_at_place_of(&at[s], &at[pair->b]) &&
+                   has_bearing_towards(search, s, point);
     }
     return support >= (num_sensors > 4 ? num_sensors - 3u : 1u);
 }
@@ -119,80 +108,76 @@ static float sigma_with_way_rad(float sigma_rad, float way_m, float range_m)
     return rho_sqrt(sigma_rad * sigma_rad + way_rad * way_rad);
 }
 
-/* Crosses two sensors' bearings in one scan, and stores crossings that have support. */
-static void cross_pair_in_scan(struct rho_passive_search *search, const struct sensor_pair *pair,
-                               const struct rho_crossing_base *base)
+/* Crosses two bearings, and stores a crossing that tells a range and has support. */
+static int cross_bearings(struct rho_passive_search *search, const struct sensor_pair *pair,
+                          unsigned index_a, unsigned index_b)
 {
-    struct rho_passive *passive = search->passive;
-    struct rho_ghost_matrix matrix;
-    const float steps = search->at[pair->scan][pair->a].step - search->at[pair->scan][pair->b].step;
-    const float way_m = 0.5f * sigma_of_way_m(search, steps);
-    if (rho_ghost_fill(&matrix, base, pair->bearings_a_rad, pair->num_a, pair->bearings_b_rad,
-                       pair->num_b, passive->config.range_max_m) != RHO_OK) {
-        return; /* cannot fail: bearings were checked when they were pushed */
+    const struct rho_passive_look *at = search->at[pair->scan];
+    const struct rho_batch *batch = &search->passive->batch;
+    const struct rho_batch_bearing *a = &batch->bearings[pair->scan][pair->a][index_a];
+    const struct rho_batch_bearing *b = &batch->bearings[pair->scan][pair->b][index_b];
+    const float way_m = 0.5f * sigma_of_way_m(search, at[pair->a].step - at[pair->b].step);
+    struct rho_crossing crossing;
+    float covariance_m2[3];
+    if (rho_crossing_find(&pair->base, a->bearing_rad, b->bearing_rad,
+                          search->passive->config.range_max_m, &crossing) != RHO_CROSSING_MEETS) {
+        return 0;
     }
-    rho_ghost_prune(&matrix, passive->config.rule);
-    for (unsigned i = 0; i < pair->num_a; i++) {
-        for (unsigned j = 0; j < pair->num_b; j++) {
-            int is_ghost = matrix.reason[i][j] != RHO_GHOST_KEPT;
-            if (!search->is_second) {
-                passive->work.crossings = rho_count(passive->work.crossings, 1);
-                passive->work.ghosts = rho_count(passive->work.ghosts, (unsigned)is_ghost);
-            }
-            const struct rho_batch_bearing *a =
-                &passive->batch.bearings[pair->scan][pair->a][pair->index_a[i]];
-            const struct rho_batch_bearing *b =
-                &passive->batch.bearings[pair->scan][pair->b][pair->index_b[j]];
-            struct rho_crossing crossing;
-            float covariance_m2[3];
-            if (is_ghost ||
-                rho_crossing_find(base, a->bearing_rad, b->bearing_rad, passive->config.range_max_m,
-                                  &crossing) != RHO_CROSSING_MEETS) {
-                continue;
-            }
-            rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad,
-                                    sigma_with_way_rad(a->sigma_rad, way_m, crossing.range_a_m),
-                                    sigma_with_way_rad(b->sigma_rad, way_m, crossing.range_b_m),
-                                    covariance_m2);
-            struct rho_passive_point point = {.x_m = crossing.x_m,
-                                              .y_m = crossing.y_m,
-                                              .xx_m2 = covariance_m2[0],
-                                              .xy_m2 = covariance_m2[1],
-                                              .yy_m2 = covariance_m2[2],
-                                              .scan = (uint8_t)pair->scan,
-                                              .sensors = (uint8_t)(8u * pair->a + pair->b),
-                                              .bearing = {pair->index_a[i], pair->index_b[j]}};
-            const float tells_m =
-                RANGE_SHARE * rho_larger(crossing.range_a_m, crossing.range_b_m);
-            if (rho_passive_uncertainty_m2(&point) < tells_m * tells_m &&
-                is_supported(search, pair, &point)) {
-                store_crossing(search, &point);
-            }
-        }
+    rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad,
+                            sigma_with_way_rad(a->sigma_rad, way_m, crossing.range_a_m),
+                            sigma_with_way_rad(b->sigma_rad, way_m, crossing.range_b_m),
+                            covariance_m2);
+    const struct rho_passive_point point = {.x_m = crossing.x_m,
+                                            .y_m = crossing.y_m,
+                                            .xx_m2 = covariance_m2[0],
+                                            .xy_m2 = covariance_m2[1],
+                                            .yy_m2 = covariance_m2[2],
+                                            .scan = (uint8_t)pair->scan,
+                                            .sensors = (uint8_t)(8u * pair->a + pair->b),
+                                            .bearing = {(uint8_t)index_a, (uint8_t)index_b}};
+    const float tells_m = RANGE_SHARE * rho_larger(crossing.range_a_m, crossing.range_b_m);
+    if (!(rho_passive_uncertainty_m2(&point) < tells_m * tells_m) ||
+        !is_supported(search, pair, &point)) {
+        return 0;
     }
+    store_crossing(search, &point);
+    return 1;
 }
 
-static void cross_pair(struct rho_passive_search *search, unsigned a, unsigned b)
+static void cross_pair(struct rho_passive_search *search, struct sensor_pair *pair)
 {
-    for (unsigned scan = 0; scan < search->passive->batch.num_scans; scan++) {
-        const struct rho_passive_look *at = search->at[scan];
-        struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
-        struct rho_crossing_base base;
-        pair.num_a = collect_bearings(search, scan, a, pair.bearings_a_rad, pair.index_a);
-        pair.num_b = collect_bearings(search, scan, b, pair.bearings_b_rad, pair.index_b);
-        /* sensors at one place have no base */
-        if (rho_crossing_set_base(&base, at[a].x_m, at[a].y_m, at[b].x_m, at[b].y_m) == RHO_OK) {
-            cross_pair_in_scan(search, &pair, &base);
+    struct rho_passive *passive = search->passive;
+    struct rho_passive_work *work = &passive->work;
+    const uint8_t *claimed_a = passive->is_claimed[pair->scan][pair->a];
+    const uint8_t *claimed_b = passive->is_claimed[pair->scan][pair->b];
+    const uint8_t *num = passive->batch.num_bearings[pair->scan];
+    const unsigned most = !search->is_second; /* later unclaimed bearings alone are crossed */
+    for (unsigned i = 0; i < num[pair->a]; i++) {
+        for (unsigned j = 0; j < num[pair->b]; j++) {
+            if (claimed_a[i] <= most && claimed_b[j] <= most) {
+                const unsigned is_ghost = !cross_bearings(search, pair, i, j);
+                work->crossings = rho_count(work->crossings, !search->is_second);
+                work->ghosts = rho_count(work->ghosts, !search->is_second && is_ghost);
+            }
         }
     }
 }
 
 void rho_passive_find_crossings(struct rho_passive_search *search)
 {
+    const struct rho_batch *batch = &search->passive->batch;
     search->passive->num_points = 0;
-    for (unsigned a = 0; a + 1u < search->passive->batch.num_sensors; a++) {
-        for (unsigned b = a + 1u; b < search->passive->batch.num_sensors; b++) {
-            cross_pair(search, a, b);
+    for (unsigned scan = 0; scan < batch->num_scans; scan++) {
+        const struct rho_passive_look *at = search->at[scan];
+        for (unsigned a = 0; a + 1u < batch->num_sensors; a++) {
+            for (unsigned b = a + 1u; b < batch->num_sensors; b++) {
+                struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
+                /* sensors at one place have no base */
+                if (rho_crossing_set_base(&pair.base, at[a].x_m, at[a].y_m, at[b].x_m, at[b].y_m) ==
+                    RHO_OK) {
+                    cross_pair(search, &pair);
+                }
+            }
         }
     }
 }

@@ -14,14 +14,9 @@
 
 #define N RHO_PASSIVE_STATES
 
-/* Normal equations a x = b. */
-struct equations {
-    float a[RHO_TRIANGLE(N)], b[N];
-};
-
 /* Adds the linear equation of a bearing, row . change = residual, to the normal equations. */
 static void add_bearing_equation(float step, const struct rho_passive_match *nearest,
-                                 struct equations *equations)
+                                 struct rho_passive_equations *equations)
 {
     /* derivative of the bearing by the position, rad per metre */
     float range2_m2 = rho_square(nearest->offset.x_m) + rho_square(nearest->offset.y_m);
@@ -37,33 +32,28 @@ static void add_bearing_equation(float step, const struct rho_passive_match *nea
     }
 }
 
-/* Bearings that a fit takes: the nearest unclaimed ones, of all; those that a track claimed. */
-enum fitted { FIT_FREE, FIT_ALL, FIT_CLAIMED };
-
 static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas)
 {
     return rho_square(rho_passive_residual(nearest)) < rho_square(gate_sigmas);
 }
 
 /*
- * Normal equations of the nearest bearings within the gate, or of the claimed ones (claim) at any
- * distance; with weak priors of position and speed.
+ * Normal equations of the nearest unclaimed bearings within the gate, or of the claimed ones (claim)
+ * at any distance; with weak priors of position and speed.
  */
-static struct equations equations_of_bearings(const struct rho_passive_search *search,
-                                              const float state_m[N], float gate,
-                                              enum fitted fitted,
-                                              const uint8_t (*claim)[RHO_MAX_PASSIVE_SENSORS])
+static struct rho_passive_equations
+equations_of_bearings(const struct rho_passive_search *search, const float state_m[N], float gate,
+                      const uint8_t (*claim)[RHO_MAX_PASSIVE_SENSORS])
 {
     const struct rho_batch *batch = &search->passive->batch;
     float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
-    struct equations equations = {.b = {0}};
+    struct rho_passive_equations equations = {.b = {0}};
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                fitted == FIT_CLAIMED
-                    ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
-                    : rho_passive_match_nearest(search, k, s, state_m, fitted == FIT_ALL);
-            if (nearest.bearing >= 0 && (fitted == FIT_CLAIMED || is_in_gate(&nearest, gate))) {
+                claim ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
+                      : rho_passive_match_nearest(search, k, s, state_m, 0);
+            if (nearest.bearing >= 0 && (claim || is_in_gate(&nearest, gate))) {
                 add_bearing_equation(search->at[k][s].step, &nearest, &equations);
             }
         }
@@ -85,8 +75,8 @@ static float clipped(float v, float most)
  * Solves the normal equations and moves the state, each component by a limited step. Returns 0
  * where they are singular, and the state stays.
  */
-static int take_step(const struct rho_passive_search *search, struct equations *equations,
-                     float state_m[N])
+static int take_step(const struct rho_passive_search *search,
+                     struct rho_passive_equations *equations, float state_m[N])
 {
     float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
     if (rho_linalg_cholesky(N, equations->a, factor) != RHO_OK) {
@@ -101,29 +91,29 @@ static int take_step(const struct rho_passive_search *search, struct equations *
     return 1;
 }
 
-void rho_passive_fit_nearest(const struct rho_passive_search *search, float state_m[N],
-                             int include_claimed)
+void rho_passive_fit_nearest(const struct rho_passive_search *search, float state_m[N])
 {
     static const float gates[4] = {8.0f, 5.0f, BEARING_GATE_SIGMAS, BEARING_GATE_SIGMAS};
     int goes_on = 1;
     for (unsigned step = 0; step < 4 && goes_on; step++) {
-        struct equations equations = equations_of_bearings(
-            search, state_m, gates[step], include_claimed ? FIT_ALL : FIT_FREE, NULL);
+        struct rho_passive_equations equations =
+            equations_of_bearings(search, state_m, gates[step], NULL);
         goes_on = take_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
 
-static struct equations equations_of_claims(const struct rho_passive_search *search,
-                                            const struct rho_passive_candidate *track)
+struct rho_passive_equations
+rho_passive_equations_of_claims(const struct rho_passive_search *search,
+                                const struct rho_passive_candidate *track)
 {
-    return equations_of_bearings(search, track->state_m, 0.0f, FIT_CLAIMED, track->claim);
+    return equations_of_bearings(search, track->state_m, 0.0f, track->claim);
 }
 
 void rho_passive_step_to_claims(const struct rho_passive_search *search,
                                 struct rho_passive_candidate *track)
 {
-    struct equations equations = equations_of_claims(search, track);
+    struct rho_passive_equations equations = rho_passive_equations_of_claims(search, track);
     (void)take_step(search, &equations, track->state_m);
 }
 
@@ -182,17 +172,7 @@ static float score_of_hit(const struct rho_passive_search *search,
     return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * (RHO_LOG_TWO_PI + chi2);
 }
 
-struct rho_passive_information
-rho_passive_information(const struct rho_passive_search *search,
-                        const struct rho_passive_candidate *track)
-{
-    const struct equations equations = equations_of_claims(search, track);
-    struct rho_passive_information information;
-    memcpy(information.a, equations.a, sizeof information.a);
-    return information;
-}
-
-float rho_passive_distance2(const struct rho_passive_information *information, const float a_m[N],
+float rho_passive_distance2(const struct rho_passive_equations *equations, const float a_m[N],
                             const float b_m[N])
 {
     float sum = 0.0f;
@@ -200,7 +180,7 @@ float rho_passive_distance2(const struct rho_passive_information *information, c
         const float off_m = a_m[i] - b_m[i];
         for (int j = 0; j <= i; j++) {
             const float twice = i == j ? 1.0f : 2.0f;
-            sum += twice * information->a[RHO_AT(i, j)] * off_m * (a_m[j] - b_m[j]);
+            sum += twice * equations->a[RHO_AT(i, j)] * off_m * (a_m[j] - b_m[j]);
         }
     }
     return sum;
@@ -216,7 +196,7 @@ static float score_of_prior(const struct rho_passive_search *search,
 {
     const float place_m = 0.5f * search->passive->config.range_max_m;
     const float way_m = 0.5f * search->passive->config.v_max_mps * search->half_s;
-    const struct equations equations = equations_of_claims(search, track);
+    const struct rho_passive_equations equations = rho_passive_equations_of_claims(search, track);
     float factor[RHO_TRIANGLE(N)], score_nat = 0.0f;
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return SINGULAR_NAT;
@@ -245,7 +225,8 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
                 track->hits++;
                 *chi2 += seen_chi2;
                 track->score_nat += score_of_hit(search, &seen, seen_chi2);
-            } else if (batch->was_seen[k][s] && rho_passive_is_in_view(search, k, s, track->state_m)) {
+            } else if (batch->was_seen[k][s] &&
+                       rho_passive_is_in_view(search, k, s, track->state_m)) {
                 track->score_nat += search->miss_nat;
             } else {
                 out_of_view += batch->was_seen[k][s];
@@ -256,7 +237,7 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
     return is_track(search, track, *chi2, out_of_view);
 }
 
-void rho_passive_claim_nearest(const struct rho_passive_search *search, int include_claimed,
+void rho_passive_claim_nearest(const struct rho_passive_search *search,
                                struct rho_passive_candidate *track)
 {
     const struct rho_batch *batch = &search->passive->batch;
@@ -264,7 +245,7 @@ void rho_passive_claim_nearest(const struct rho_passive_search *search, int incl
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                rho_passive_match_nearest(search, k, s, track->state_m, include_claimed);
+                rho_passive_match_nearest(search, k, s, track->state_m, 1);
             if (nearest.bearing >= 0 && is_in_gate(&nearest, BEARING_GATE_SIGMAS)) {
                 track->claim[k][s] = (uint8_t)(nearest.bearing + 1);
             }
@@ -294,7 +275,7 @@ int rho_passive_estimate_track(const struct rho_passive_search *search,
                                struct rho_passive_track *track)
 {
     const float *state_m = from->state_m;
-    struct equations equations = equations_of_claims(search, from);
+    struct rho_passive_equations equations = rho_passive_equations_of_claims(search, from);
     float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return 0;

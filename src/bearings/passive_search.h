@@ -35,7 +35,7 @@ struct rho_passive_look {
 /* Values computed once for a search. Positions are relative to the looks' centroid. */
 struct rho_passive_search {
     struct rho_passive *passive;
-    struct rho_passive_known *known; /* the tracks that are challenged, and safe ones */
+    struct rho_passive_known *known; /* the tracks that are challenged, and safe ones; NULL: none */
     uint32_t num_known;
     float middle_x_m, middle_y_m; /* centroid of the places of all looks */
     float half_s;                 /* half the time from the first row to the newest frame */
@@ -46,7 +46,7 @@ struct rho_passive_search {
     float share_nat;     /* penalty of a choice for each bearing that two chosen candidates claim */
     float sigma_min_rad; /* floor of the bearings' sigmas */
     float mean_log_sigma;
-    unsigned looks;      /* number of reports: pairs of scan and sensor */
+    unsigned looks; /* number of reports: pairs of scan and sensor */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
     uint32_t worst_point; /* index of the least certain crossing; num_points: not known */
@@ -58,9 +58,6 @@ void rho_passive_prepare(struct rho_passive_search *search);
 void rho_passive_set_density(struct rho_passive_search *search);
 /* Sets passive->start_mnat, for the allowed rate of false tracks. */
 void rho_passive_set_start_score(const struct rho_passive_search *search);
-/* Bearings of owners that are none of the known tracks get none. */
-void rho_passive_release(struct rho_passive *passive, struct rho_passive_known *known,
-                         uint32_t num_known);
 /* Values of is_claimed: a bearing of a safe track is BLOCKED, and none matches it. */
 enum { RHO_PASSIVE_FREE, RHO_PASSIVE_CLAIMED, RHO_PASSIVE_BLOCKED };
 /* Blocks the bearings of owners, except known tracks that are not safe, and frees all others. */
@@ -134,23 +131,24 @@ float rho_passive_agreement(const struct rho_passive_search *search,
                             const float state_m[RHO_PASSIVE_STATES], float least);
 /* Fits a state to the nearest bearings: four Gauss-Newton steps, in gates of 8 to 3.5 sigmas. */
 void rho_passive_fit_nearest(const struct rho_passive_search *search,
-                             float state_m[RHO_PASSIVE_STATES], int include_claimed);
+                             float state_m[RHO_PASSIVE_STATES]);
 /* Improves a track's state by one Gauss-Newton step towards the bearings that it claims. */
 void rho_passive_step_to_claims(const struct rho_passive_search *search,
                                 struct rho_passive_candidate *track);
 
 /* Claims for a track's state the nearest bearing of each look within 3.5 sigmas. */
-void rho_passive_claim_nearest(const struct rho_passive_search *search, int include_claimed,
+void rho_passive_claim_nearest(const struct rho_passive_search *search,
                                struct rho_passive_candidate *track);
-/* The inverse of a candidate's covariance, lower triangle. */
-struct rho_passive_information {
-    float a[10];
+/* Normal equations a x = b of a fit; a, a lower triangle, is the inverse of its covariance. */
+struct rho_passive_equations {
+    float a[10], b[RHO_PASSIVE_STATES];
 };
-struct rho_passive_information
-rho_passive_information(const struct rho_passive_search *search,
-                        const struct rho_passive_candidate *track);
+/* Those of the bearings that a candidate claims. */
+struct rho_passive_equations
+rho_passive_equations_of_claims(const struct rho_passive_search *search,
+                                const struct rho_passive_candidate *track);
 /* Squared distance of two states in sigmas. */
-float rho_passive_distance2(const struct rho_passive_information *information,
+float rho_passive_distance2(const struct rho_passive_equations *equations,
                             const float a_m[RHO_PASSIVE_STATES],
                             const float b_m[RHO_PASSIVE_STATES]);
 /* Whether the state's position was within the sensor's sector in the scan. */

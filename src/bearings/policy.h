@@ -138,16 +138,4 @@
  */
 #define SIGMA_RATIO_MAX 200.0f
 
-/* final_tracks.c: the final tracks */
-
-/*
- * Alternatives whose total is lower than the best choice's by more than this are not fitted, as a
- * fit gains less. Half: some margins are too large. Twice: time for sets that cannot win.
- */
-#define ALTERNATIVES_WITHIN_NAT 20.0f
-/* Alternatives fitted for each track. Half: margins may be too large. Twice: twice the time. */
-#define ALTERNATIVES_MAX 4u
-/* Times that another set may become the best. Half: a better one may be missed. Twice: the time. */
-#define CHANGES_MAX 4u
-
 #endif

@@ -163,8 +163,8 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
     const unsigned k = batch->num_scans - 1u, s = find_sensor(batch, scan->sensor_id);
     batch->num_sensors = (uint16_t)(batch->num_sensors + (s == batch->num_sensors));
     batch->sensors[s] = (struct rho_batch_sensor){scan->sensor_id, scan->x_m, scan->y_m};
-    batch->looks[k][s] = (struct rho_batch_look){(int32_t)(scan->time_us - batch->time_us[k]),
-                                                 scan->x_m, scan->y_m};
+    batch->looks[k][s] =
+        (struct rho_batch_look){(int32_t)(scan->time_us - batch->time_us[k]), scan->x_m, scan->y_m};
     count_left(batch, k, s);
     batch->num_bearings[k][s] = 0;
     batch->was_seen[k][s] = 1;

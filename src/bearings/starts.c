@@ -23,9 +23,8 @@ static void crossing_times(const struct rho_passive_search *search,
     const struct rho_batch_bearing *b =
         &search->passive->batch.bearings[k][s[1]][point->bearing[1]];
     const float apart = search->at[k][s[0]].step - middle;
-    const float by = apart < 0.0f || apart > 0.0f
-                         ? apart / (a->cosine * b->sine - a->sine * b->cosine)
-                         : 0.0f;
+    const float by =
+        apart < 0.0f || apart > 0.0f ? apart / (a->cosine * b->sine - a->sine * b->cosine) : 0.0f;
     const float mixed = by * (a->sine * b->cosine + a->cosine * b->sine);
     times[0][0] = middle - mixed;
     times[0][1] = 2.0f * by * a->cosine * b->cosine;
@@ -41,8 +40,7 @@ int rho_passive_connect_crossings(const struct rho_passive_search *search,
 {
     float steps = rho_passive_crossing_step(search, b) - rho_passive_crossing_step(search, a);
     float dx_m = b->x_m - a->x_m, dy_m = b->y_m - a->y_m;
-    float most_m =
-        (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * steps * search->half_s;
+    float most_m = (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * steps * search->half_s;
     float way2_m2 = dx_m * dx_m + dy_m * dy_m;
     /* uncertainty of the crossings is added only where needed: it costs a square root */
     if (way2_m2 > most_m * most_m) {
@@ -72,7 +70,8 @@ int rho_passive_connect_crossings(const struct rho_passive_search *search,
 static void list_partners(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    const unsigned apart = 1u + (unsigned)(PAIR_ROWS_SHARE * (float)(passive->batch.num_scans - 2u));
+    const unsigned apart =
+        1u + (unsigned)(PAIR_ROWS_SHARE * (float)(passive->batch.num_scans - 2u));
     for (uint32_t i = 0; i < passive->num_points; i++) {
         struct rho_passive_partner *best = passive->partners[i];
         for (unsigned n = 0; n < RHO_PASSIVE_PARTNERS; n++) {
@@ -143,7 +142,7 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
         float state_m[RHO_PASSIVE_STATES];
         best->agreement = 0.0f;
         if (!is_found(passive, a, b) && rho_passive_connect_crossings(search, a, b, state_m)) {
-            rho_passive_fit_nearest(search, state_m, 0);
+            rho_passive_fit_nearest(search, state_m);
             (void)rho_passive_offer_if_track(search, state_m);
             fits++;
         }

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* node_frames: scans of bearings to frames; when a frame closes, and when all begin anew. */
-#include <string.h>
-
 #include "node_parts.h"
-
-/* Successive refused scans of a passive sensor after which it is taken to have moved. */
-#define MOVED_SCANS 16
 
 /*
  * Makes the first frame wait for the largest number of passive sensors, until a scan of the next
@@ -21,7 +16,6 @@ void rho_node_frames_reset(struct rho_node *node)
         frames->config.sensors_min = RHO_MAX_PASSIVE_SENSORS;
         counters.scans_taken = 0; /* 0 tells the frames that they have no clock yet */
         frames->counters = counters;
-        memset(node->refused_scans, 0, sizeof node->refused_scans);
     }
 }
 
@@ -84,26 +78,18 @@ static int add_to_frame(struct rho_node *node, const struct rho_bearing_scan *sc
     if (!is_near_others(node, scan) || rho_frames_push(frames, scan) != RHO_OK) {
         return 0;
     }
-    for (unsigned i = 0; i < frames->num_sensors; i++) {
-        if (frames->sensors[i].sensor_id == scan->sensor_id) {
-            node->refused_scans[i] = 0;
-        }
-    }
     node->has_closed = frames->has_closed ? NODE_FRAME_CLOSED : NODE_FRAME_NONE;
     return 1;
 }
 
-/*
- * Counts a refused scan. Returns 1 where the frames are to begin anew: a silent sensor keeps the
- * scan's sensor out, or MOVED_SCANS refusals suggest that the scan's sensor has moved.
- */
-static int must_reset_after_refusal(struct rho_node *node, const struct rho_bearing_scan *scan)
+/* Whether the frames are to begin anew: a silent sensor keeps the refused scan's sensor out. */
+static int must_reset_after_refusal(const struct rho_node *node,
+                                    const struct rho_bearing_scan *scan)
 {
     const struct rho_frames *frames = NODE_FRAMES(node);
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         int32_t sensor_id = frames->sensors[i].sensor_id;
-        if (sensor_id == scan->sensor_id ? ++node->refused_scans[i] >= MOVED_SCANS
-                                         : !rho_node_sensor_is_heard(node, sensor_id)) {
+        if (sensor_id != scan->sensor_id && !rho_node_sensor_is_heard(node, sensor_id)) {
             return 1;
         }
     }

@@ -167,23 +167,16 @@ static uint32_t end_beaten_tracks(struct step *step, struct owners_list *list,
     uint32_t heir_id = 0;
     unsigned most = 0;
     for (unsigned i = 0; i < list->num; i++) {
-        const struct rho_passive_known *known = &list->known[i];
-        const unsigned shared = known->is_beaten
-                                    ? count_shared(&step->passive->batch, found, known->track_id)
-                                    : 0;
-        if (shared > most) {
-            most = shared;
-            heir_id = known->track_id;
-        }
-    }
-    for (unsigned i = 0; i < list->num; i++) {
         struct rho_passive_known *known = &list->known[i];
-        if (known->is_beaten && known->track_id != heir_id &&
-            count_shared(&step->passive->batch, found, known->track_id) > 0) {
-            rho_step_end_track(step, find_track(step->tracker, known->track_id));
-            known->is_beaten = 0;
+        const unsigned shared =
+            known->is_beaten ? count_shared(&step->passive->batch, found, known->track_id) : 0;
+        const uint32_t gone_id = shared > most ? heir_id : known->track_id;
+        if (shared > 0 && gone_id != 0) {
+            rho_step_end_track(step, find_track(step->tracker, gone_id));
         }
-        known->is_beaten &= known->track_id != heir_id;
+        heir_id = shared > most ? known->track_id : heir_id;
+        most = shared > most ? shared : most;
+        known->is_beaten &= shared == 0;
     }
     return heir_id;
 }

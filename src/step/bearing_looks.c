@@ -133,8 +133,8 @@ struct bearing_mix {
     struct rho_track_bearing as_one; /* the one bearing that changes the estimate as they all do */
     float hit;                       /* probability that one of them is the track's */
     float seeing;                    /* share of targets that no other track's bearing covers */
-    float gain_nat; /* ln of the likelihood of them all, or a miss, over that of clutter */
-    float share;    /* information of the mix, over that of a certain bearing */
+    float gain_nat;    /* ln of the likelihood of them all, or a miss, over that of clutter */
+    float share;       /* information of the mix, over that of a certain bearing */
     float density_nat; /* ln of the density of the one of most weight */
 };
 

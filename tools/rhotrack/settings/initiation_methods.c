@@ -234,7 +234,6 @@ struct rho_passive_config method_passive_config(const struct parameters *paramet
     rho_passive_config_default(&config);
     rho_settings_apply(&settings, NULL, NULL, &config);
     config.scans = (uint16_t)parameters->value[PARAMETER_SCANS];
-    config.rule = ghost_rule_of(parameters);
     return config;
 }
 

@@ -42,7 +42,7 @@ void passive_sensors_add(struct passive_sensors *known, const char *path,
                                   .path = path,
                                   .line = row->line};
     }
-    sensor->sensor.moves_m = fmax(sensor->sensor.moves_m,
-                                  hypot((double)row->sensor.x_m - (double)sensor->sensor.x_m,
-                                        (double)row->sensor.y_m - (double)sensor->sensor.y_m));
+    sensor->sensor.moves_m =
+        fmax(sensor->sensor.moves_m, hypot((double)row->sensor.x_m - (double)sensor->sensor.x_m,
+                                           (double)row->sensor.y_m - (double)sensor->sensor.y_m));
 }
