@@ -140,9 +140,9 @@ RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t
  *   scan  must not be of this object's own frames; its bearings are not checked here, but by the
  *         user of the frame
  * Errors: NULL, STATE (not initialised), VALUE (a time beyond RHO_LIMIT_TIME_US, a sector beyond
- * one turn either way, a position of the sensor that is no coordinate), CAPACITY (more sensors than RHO_MAX_PASSIVE_SENSORS); nothing is
- * changed, and the frame closed before stays. Late scans and scans off the clock are RHO_OK. Cost:
- * the bearings copied, a slot cleared. Stack: 200 bytes.
+ * one turn either way, a position of the sensor that is no coordinate), CAPACITY (more sensors than
+ * RHO_MAX_PASSIVE_SENSORS); nothing is changed, and the frame closed before stays. Late scans and
+ * scans off the clock are RHO_OK. Cost: the bearings copied, a slot cleared. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_frames_push(struct rho_frames *frames,
                                                const struct rho_bearing_scan *scan);

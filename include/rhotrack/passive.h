@@ -154,7 +154,8 @@ struct rho_passive {
 };
 
 /*
- * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65. Constant cost.
+ * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65. Constant
+ * cost.
  */
 void rho_passive_config_default(struct rho_passive_config *config);
 

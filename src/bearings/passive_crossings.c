@@ -54,8 +54,8 @@ static int is_at_place_of(const struct rho_passive_look *look, const struct rho_
 }
 
 /*
- * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and at
- * least one, must have a bearing towards the crossing, from places of their own.
+ * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and
+ * at least one, must have a bearing towards the crossing, from places of their own.
  */
 static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
                         const struct rho_passive_point *point)

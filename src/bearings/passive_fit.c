@@ -38,8 +38,8 @@ static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas
 }
 
 /*
- * Normal equations of the nearest unclaimed bearings within the gate, or of the claimed ones (claim)
- * at any distance; with weak priors of position and speed.
+ * Normal equations of the nearest unclaimed bearings within the gate, or of the claimed ones
+ * (claim) at any distance; with weak priors of position and speed.
  */
 static struct rho_passive_equations
 equations_of_bearings(const struct rho_passive_search *search, const float state_m[N], float gate,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_prepare: values computed once before a search: places and times of the looks, log-likelihood ratios of a hit and a miss, and the score that a track must reach.
+ * passive_prepare: values computed once before a search: places and times of the looks,
+ * log-likelihood ratios of a hit and a miss, and the score that a track must reach.
  */
 #include "passive_search.h"
 #include "policy.h"

@@ -35,7 +35,7 @@ struct rho_batch_look {
     float x_m, y_m;
 };
 
-/* The track that a bearing was taken for, and ln of its density per radian where it was expected. */
+/* The track that a bearing was taken for, and ln of its density, 1/rad, where it was expected. */
 struct rho_batch_owner {
     uint32_t track_id; /* 0: no track's */
     float density_nat;
