@@ -31,7 +31,7 @@
 RHO_BEGIN_C
 
 struct rho_passive_config {
-    uint32_t scans; /* number of scans in the batch, N: 4 .. RHO_MAX_PASSIVE_SCANS */
+    uint32_t scans; /* number of scans in the batch, N: 3 .. RHO_MAX_PASSIVE_SCANS */
     /*
      * range limit of all sensors: 1000 .. 500000. If it is too small, targets beyond it are not
      * found, and ghosts within it are confirmed by the bearings of these targets
@@ -180,7 +180,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
 
 /*
  * Gives the bearings of a track of the last search to the track that was started from it. Returns
- * their number.
+ * the number of those that nobody had.
  */
 uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_track *track,
                           uint32_t track_id);
@@ -188,17 +188,16 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
 /*
  * Searches the batch for tracks, from bearings without an owner. Results: passive->tracks[0 ..
  * num_tracks - 1].
- * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no track.
+ * Errors: NULL, STATE (not initialised). Fewer than 3 rows, or one sensor: RHO_OK and no track.
  * Cost: src/DESIGN.md. Stack: 3.5 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 
 /*
- * Searches all bearings for the best set of tracks, known ones and new ones, and says which known
- * ones it lacks: so a track that began with bearings of several targets gives way to theirs.
- * Bearings of owners that are not known are free. Results: the new tracks, as of
- * rho_passive_search, and known[].is_beaten; at most RHO_MAX_PASSIVE_TRACKS that are not safe.
- * Errors: NULL, STATE, CAPACITY (more than that). Cost, stack: as rho_passive_search.
+ * Searches all bearings for the best set of tracks, known and new, and says which known ones it
+ * lacks: a track that began with bearings of several targets gives way to theirs. Bearings of other
+ * owners are free. Results: those of rho_passive_search, known[].is_beaten. Errors: NULL, STATE,
+ * CAPACITY (more than RHO_MAX_PASSIVE_TRACKS that are not safe). Stack: 2.7 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_challenge(struct rho_passive *passive,
                                                      struct rho_passive_known *known,

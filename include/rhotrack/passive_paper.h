@@ -43,7 +43,7 @@
 RHO_BEGIN_C
 
 struct rho_passive_paper_config {
-    uint16_t scans; /* number of scans in the batch, N: 4 .. RHO_MAX_PASSIVE_SCANS */
+    uint16_t scans; /* number of scans in the batch, N: 3 .. RHO_MAX_PASSIVE_SCANS */
     /* votes that a cell needs, T: 1 .. 255; 0: four fifths of the scans in the batch, rounded up */
     uint16_t votes_min;
     float range_max_m; /* range limit of all sensors: 1000 .. 500000 */
@@ -159,7 +159,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *
 /*
  * Searches the batch for lines. Results: paper->lines[0 .. num_lines - 1]. Sensors without a scan
  * in the batch are left out.
- * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no line.
+ * Errors: NULL, STATE (not initialised). Fewer than 3 frames, or one sensor: RHO_OK and no line.
  * Cost: for each pair of sensors its crossings times the rows of theta, and times the lines; cells
  * times lines, with those dropped. Stack: 1.5 KB with 8 bearings a scan, 4 KB with 16.
  */

@@ -597,9 +597,9 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
  * Processes one frame of bearings in all phases: its scans in their order, with the bearings' own
  * times.
  *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held
- *            nowhere (fate NO_ROOM); else its batch takes the unclaimed bearings, and is searched
- *            at each step once it is full. A candidate with a score of passive->start_mnat or more
- *            starts a track, which is confirmed at once.
+ *            nowhere (fate NO_ROOM); else its batch takes the bearings, and tracks are challenged
+ *            (rho_passive_challenge) once a row. A found track with a score of start_mnat or more
+ *            is started, confirmed at once, or takes the place of one that it beats.
  *   frame    one scan a sensor; bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS of
  *            a scan NO_ROOM. A frame older than the last accepted scan or frame is late: all its
  *            bearings are STALE
@@ -613,7 +613,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
  * rho_passive_accepts; nothing is changed, *report neither.
  * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one
  * rho_passive_search.
- * Stack: 4.2 KB (embedded profile).
+ * Stack: 4.4 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker,
                                                       struct rho_passive *passive,

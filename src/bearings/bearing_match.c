@@ -7,8 +7,6 @@
 
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 #define N RHO_PASSIVE_STATES
 

@@ -7,7 +7,6 @@
 
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/types.h"
 
 unsigned rho_passive_count_shared(const struct rho_passive_search *search,
                                   const struct rho_passive_candidate *a,

@@ -8,7 +8,6 @@
 
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/types.h"
 
 /*
  * The highest total of a set of tracks without the target of candidate `which`: of the rest, and
@@ -54,7 +53,7 @@ void rho_passive_claim_best_set(struct rho_passive_search *search)
     rho_passive_choose(search, &choice);
     rho_passive_fit_jointly(search, &choice, &passive->best);
     for (unsigned i = 0; i < passive->best.num; i++) {
-        rho_passive_mark_claims(passive, &passive->best.tracks[i], 1);
+        rho_passive_mark_claims(passive, &passive->best.tracks[i], RHO_PASSIVE_CLAIMED);
     }
 }
 

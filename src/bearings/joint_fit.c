@@ -7,7 +7,6 @@
 
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/types.h"
 
 /*
  * Assigns the bearings of a look: again and again the free track and the free bearing that gain

@@ -8,30 +8,29 @@
 
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/types.h"
 
-/* Whether nobody has the bearing, or one whom a challenge may take it from. */
-static int is_in_play(const struct rho_passive_search *search, uint32_t track_id)
+/* Whether a challenge may take the bearing from its owner; owners that are not known are gone. */
+static int is_in_play(const struct rho_passive_search *search, struct rho_batch_owner *owner)
 {
     for (uint32_t i = 0; i < search->num_known; i++) {
-        if (search->known[i].track_id == track_id) {
+        if (search->known[i].track_id == owner->track_id) {
             return !search->known[i].is_safe;
         }
     }
-    return track_id == 0 || search->known; /* in a challenge, owners that are not known are gone */
+    owner->track_id = search->is_challenge ? 0 : owner->track_id;
+    return owner->track_id == 0;
 }
 
 void rho_passive_block_bearings(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    const struct rho_batch *batch = &passive->batch;
+    struct rho_batch *batch = &passive->batch;
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
-                passive->is_claimed[k][s][i] =
-                    is_in_play(search, batch->bearings[k][s][i].owner.track_id)
-                        ? RHO_PASSIVE_FREE
-                        : RHO_PASSIVE_BLOCKED;
+                passive->is_claimed[k][s][i] = is_in_play(search, &batch->bearings[k][s][i].owner)
+                                                   ? RHO_PASSIVE_FREE
+                                                   : RHO_PASSIVE_BLOCKED;
             }
         }
     }
@@ -71,9 +70,6 @@ void rho_passive_list_known(struct rho_passive_search *search)
         const struct rho_passive_known *known = &search->known[i];
         struct rho_passive_candidate taken, fitted;
         float chi2;
-        if (known->is_safe) {
-            continue;
-        }
         taken.state_m[RHO_PASSIVE_DX] = known->vx_mps * search->half_s;
         taken.state_m[RHO_PASSIVE_DY] = known->vy_mps * search->half_s;
         taken.state_m[RHO_PASSIVE_X] =
@@ -81,6 +77,11 @@ void rho_passive_list_known(struct rho_passive_search *search)
         taken.state_m[RHO_PASSIVE_Y] =
             known->y_m - search->middle_y_m - taken.state_m[RHO_PASSIVE_DY];
         memcpy(fitted.state_m, taken.state_m, sizeof fitted.state_m);
+        if (known->is_safe) { /* bearings on its way were its own before it began */
+            rho_passive_claim_nearest(search, &fitted);
+            rho_passive_mark_claims(passive, &fitted, RHO_PASSIVE_BLOCKED);
+            continue;
+        }
         claim_taken(search, known->track_id, &taken);
         rho_passive_fit_nearest(search, fitted.state_m);
         rho_passive_claim_nearest(search, &fitted);

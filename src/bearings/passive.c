@@ -9,7 +9,6 @@
 
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/types.h"
 
 enum { PASSIVE_MAGIC = 0x50415353 }; /* "PASS" in ASCII */
 
@@ -85,7 +84,7 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
                           uint32_t track_id)
 {
     uint32_t given = 0;
-    if (!passive || !track || passive->magic != PASSIVE_MAGIC) {
+    if (!passive || !track || passive->magic != PASSIVE_MAGIC || track->hits == 0) {
         return 0;
     }
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
@@ -94,9 +93,9 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
             if (place > 0 && place <= passive->batch.num_bearings[k][s]) {
                 struct rho_batch_bearing *bearing = &passive->batch.bearings[k][s][place - 1u];
                 const float fit_nat = 0.5f * (RHO_LOG_TWO_PI + track->chi2 / (float)track->hits);
+                given += bearing->owner.track_id == 0;
                 bearing->owner =
                     (struct rho_batch_owner){track_id, -rho_log(bearing->sigma_rad) - fit_nat};
-                given++;
             }
         }
     }
@@ -111,9 +110,10 @@ static void find_candidates(struct rho_passive_search *search)
 }
 
 static enum rho_status search_batch(struct rho_passive *passive, struct rho_passive_known *known,
-                                    uint32_t num_known)
+                                    uint32_t num_known, int is_challenge)
 {
-    struct rho_passive_search search = {.passive = passive, .known = known, .num_known = num_known};
+    struct rho_passive_search search = {
+        .passive = passive, .known = known, .num_known = num_known, .is_challenge = is_challenge};
     memset(&passive->work, 0, sizeof passive->work);
     passive->num_tracks = passive->num_candidates = 0;
     passive->start_mnat = 0;
@@ -133,7 +133,9 @@ static enum rho_status search_batch(struct rho_passive *passive, struct rho_pass
     /* second pass: all crossings of the bearings that no track of the first pass has claimed */
     search.is_second = 1;
     find_candidates(&search);
-    rho_passive_block_bearings(&search);
+    for (unsigned i = 0; i < passive->best.num; i++) {
+        rho_passive_mark_claims(passive, &passive->best.tracks[i], RHO_PASSIVE_FREE);
+    }
 
     /* the final selection is from the candidates of both passes */
     rho_passive_select_tracks(&search);
@@ -145,7 +147,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     if (!passive) {
         return RHO_ERROR_NULL;
     }
-    return passive->magic == PASSIVE_MAGIC ? search_batch(passive, 0, 0) : RHO_ERROR_STATE;
+    return passive->magic == PASSIVE_MAGIC ? search_batch(passive, 0, 0, 0) : RHO_ERROR_STATE;
 }
 
 enum rho_status rho_passive_challenge(struct rho_passive *passive, struct rho_passive_known *known,
@@ -165,7 +167,7 @@ enum rho_status rho_passive_challenge(struct rho_passive *passive, struct rho_pa
     if (num_rivals > RHO_MAX_PASSIVE_TRACKS) {
         return RHO_ERROR_CAPACITY;
     }
-    return search_batch(passive, known, num_known);
+    return search_batch(passive, known, num_known, 1);
 }
 
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)

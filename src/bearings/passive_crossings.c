@@ -5,7 +5,6 @@
  */
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/types.h"
 
 /* Two sensors in one scan. */
 struct sensor_pair {

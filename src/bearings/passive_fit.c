@@ -8,9 +8,7 @@
 #include "passive_search.h"
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
-#include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "rhotrack/types.h"
 
 #define N RHO_PASSIVE_STATES
 
@@ -199,7 +197,7 @@ static float score_of_prior(const struct rho_passive_search *search,
     const struct rho_passive_equations equations = rho_passive_equations_of_claims(search, track);
     float factor[RHO_TRIANGLE(N)], score_nat = 0.0f;
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
-        return SINGULAR_NAT;
+        return -1.0e6f; /* no covariance, no track */
     }
     for (int i = 0; i < N; i++) {
         const float sigma_m = i < RHO_PASSIVE_DX ? place_m : way_m;

@@ -5,8 +5,6 @@
  */
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 void rho_passive_prepare(struct rho_passive_search *search)
 {

@@ -35,8 +35,9 @@ struct rho_passive_look {
 /* Values computed once for a search. Positions are relative to the looks' centroid. */
 struct rho_passive_search {
     struct rho_passive *passive;
-    struct rho_passive_known *known; /* the tracks that are challenged, and safe ones; NULL: none */
+    struct rho_passive_known *known; /* the tracks that are challenged, and safe ones */
     uint32_t num_known;
+    int is_challenge;
     float middle_x_m, middle_y_m; /* centroid of the places of all looks */
     float half_s;                 /* half the time from the first row to the newest frame */
     struct rho_passive_look at[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
@@ -62,7 +63,7 @@ void rho_passive_set_start_score(const struct rho_passive_search *search);
 enum { RHO_PASSIVE_FREE, RHO_PASSIVE_CLAIMED, RHO_PASSIVE_BLOCKED };
 /* Blocks the bearings of owners, except known tracks that are not safe, and frees all others. */
 void rho_passive_block_bearings(struct rho_passive_search *search);
-/* Lists the known tracks that are not safe as candidates. */
+/* Lists the known tracks as candidates; of safe ones it blocks the bearings on their way. */
 void rho_passive_list_known(struct rho_passive_search *search);
 /* Crosses the bearings of all pairs of sensors, scan by scan, into passive->points. */
 void rho_passive_find_crossings(struct rho_passive_search *search);
@@ -202,7 +203,7 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
 void rho_passive_add_gaining(struct rho_passive_choice *choice, unsigned which);
 /* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);
-/* Sets is_claimed of all bearings that a track claims to the given value, 0 or 1. */
+/* Sets is_claimed of all bearings that a track claims. */
 void rho_passive_mark_claims(struct rho_passive *passive, const struct rho_passive_candidate *track,
                              uint8_t is_claimed);
 /*

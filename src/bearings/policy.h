@@ -3,7 +3,7 @@
 #ifndef RHOTRACK_BEARINGS_POLICY_H
 #define RHOTRACK_BEARINGS_POLICY_H
 
-/* several files of the search */
+/* best_subset.c */
 
 /*
  * Smallest gain of a total score that counts, so that rounding does not keep exchanges going. Half
@@ -33,7 +33,7 @@
  */
 #define MATCH_SIGMAS 9.0f
 
-/* best_subset.c, candidate_list.c */
+/* candidate_list.c */
 
 /*
  * Share of a candidate's bearings at which another is the same target for the margin. Half: targets
@@ -101,9 +101,6 @@
  * clipped. Twice: diverged fits lose more digits.
  */
 #define POSITION_MAX_RANGES 2.0f
-
-/* Score of a fit that has no covariance: none. Half or twice: no less than none. */
-#define SINGULAR_NAT -1.0e6f
 
 /* joint_fit.c */
 

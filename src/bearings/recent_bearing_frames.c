@@ -8,6 +8,11 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 
+static uint64_t apart_us(int64_t a_us, int64_t b_us)
+{
+    return a_us > b_us ? (uint64_t)a_us - (uint64_t)b_us : (uint64_t)b_us - (uint64_t)a_us;
+}
+
 enum rho_status rho_batch_init(struct rho_batch *batch, unsigned scans_max,
                                float sensor_distance_max_m)
 {
@@ -41,27 +46,28 @@ static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
     return i;
 }
 
-/* A sensor must be near enough to the others, and in a frame once. */
+/* A sensor must be near enough to the others, and in a frame once; more than four share less. */
 static int is_sensor_usable(const struct rho_batch *batch, const struct rho_frame *frame,
                             uint32_t scan_number)
 {
     const struct rho_bearing_scan *scan = &frame->scans[scan_number];
-    int64_t offset_us = scan->time_us - frame->time_us;
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
-        offset_us > RHO_LIMIT_OFFSET_US || offset_us < -RHO_LIMIT_OFFSET_US) {
+        apart_us(frame->time_us, scan->time_us) > RHO_LIMIT_OFFSET_US) {
         return 0;
     }
+    const float n = rho_larger(4.0f, (float)batch->num_sensors);
+    const float apart_max_m = batch->apart_max_m * 0.5f * n / (n - 2.0f);
     for (unsigned i = 0; i < batch->num_sensors; i++) {
         const struct rho_batch_sensor *other = &batch->sensors[i];
         if (scan->sensor_id != other->sensor_id &&
-            !(distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m) <= batch->apart_max_m)) {
+            !(distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m) <= apart_max_m)) {
             return 0;
         }
     }
     for (uint32_t i = 0; i < scan_number; i++) {
         const struct rho_bearing_scan *other = &frame->scans[i];
         if (other->sensor_id == scan->sensor_id ||
-            !(distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m) <= batch->apart_max_m)) {
+            !(distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m) <= apart_max_m)) {
             return 0;
         }
     }
@@ -94,10 +100,10 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
     return RHO_OK;
 }
 
-/* Longest time between the two newest looks of a sensor; 0: none has looked twice. */
-static int64_t longest_interval_us(const struct rho_batch *batch)
+/* Longest time between a sensor's two newest looks; 0: none has looked twice. */
+static float longest_interval_s(const struct rho_batch *batch)
 {
-    int64_t longest_us = 0;
+    float longest_s = 0.0f;
     for (unsigned s = 0; s < batch->num_sensors; s++) {
         int64_t newer_us = INT64_MAX;
         for (unsigned k = batch->num_scans; k-- > 0;) {
@@ -106,23 +112,22 @@ static int64_t longest_interval_us(const struct rho_batch *batch)
             }
             const int64_t time_us = batch->time_us[k] + batch->looks[k][s].offset_us;
             if (newer_us != INT64_MAX) {
-                longest_us = newer_us - time_us > longest_us ? newer_us - time_us : longest_us;
+                longest_s = rho_larger(longest_s, rho_seconds_between(time_us, newer_us));
                 break;
             }
             newer_us = time_us;
         }
     }
-    return longest_us;
+    return longest_s;
 }
 
 static int has_looks_of_all(const struct rho_batch *batch, unsigned scan)
 {
-    for (unsigned s = 0; s < batch->num_sensors; s++) {
-        if (!batch->was_seen[scan][s]) {
-            return 0;
-        }
+    unsigned s = 0;
+    while (s < batch->num_sensors && batch->was_seen[scan][s]) {
+        s++;
     }
-    return 1;
+    return s == batch->num_sensors;
 }
 
 /*
@@ -140,10 +145,10 @@ static int joins_newest_row(const struct rho_batch *batch, const struct rho_fram
         const unsigned s = find_sensor(batch, frame->scans[i].sensor_id);
         is_lacking &= s == batch->num_sensors || !batch->was_seen[newest][s];
     }
-    const int64_t age_us = frame->time_us - batch->time_us[newest];
-    const int64_t interval_us = longest_interval_us(batch);
-    return age_us < RHO_LIMIT_OFFSET_US &&
-           (interval_us == 0 || (float)age_us < ROW_INTERVALS * (float)interval_us) &&
+    const float age_s = rho_seconds_between(batch->time_us[newest], frame->time_us);
+    const float interval_s = longest_interval_s(batch);
+    return apart_us(batch->time_us[newest], frame->time_us) < RHO_LIMIT_OFFSET_US &&
+           (!(interval_s > 0.0f) || age_s < ROW_INTERVALS * interval_s) &&
            (is_lacking || !has_looks_of_all(batch, newest));
 }
 
@@ -239,8 +244,9 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
         owners = owners ? owners + frame->scans[i].num_bearings : 0;
     }
     batch->newest_us = frame->time_us;
-    batch->is_whole = frame->num_scans > 1 || has_looks_of_all(batch, batch->num_scans - 1u);
-    batch->is_due |= batch->is_whole;
+    batch->is_whole = (joins && batch->is_whole) || frame->num_scans > 1 ||
+                      has_looks_of_all(batch, batch->num_scans - 1u);
+    batch->is_due |= batch->is_whole && frame->num_scans > 0;
     return RHO_OK;
 }
 
@@ -248,6 +254,7 @@ static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned 
 {
     const struct rho_batch_look *look = &batch->looks[scan][sensor];
     if (batch->num_bearings[scan][sensor] > RHO_MAX_BEARINGS || batch->was_seen[scan][sensor] > 1 ||
+        look->offset_us > 2 * RHO_LIMIT_OFFSET_US || look->offset_us < -RHO_LIMIT_OFFSET_US ||
         !rho_is_coordinate(look->x_m) || !rho_is_coordinate(look->y_m) ||
         !rho_angle_is_valid_sector(batch->sector_from_rad[scan][sensor],
                                    batch->sector_to_rad[scan][sensor])) {
@@ -269,7 +276,10 @@ static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned 
 int rho_batch_is_sound(const struct rho_batch *batch)
 {
     if (batch->scans_max < 1 || batch->scans_max > RHO_MAX_PASSIVE_SCANS ||
-        batch->num_scans > batch->scans_max || batch->num_sensors > RHO_MAX_PASSIVE_SENSORS ||
+        batch->num_scans > batch->scans_max || batch->is_whole > 1 || batch->is_due > 1 ||
+        batch->num_sensors > RHO_MAX_PASSIVE_SENSORS ||
+        (batch->num_scans > 0 &&
+         apart_us(batch->time_us[batch->num_scans - 1u], batch->newest_us) > RHO_LIMIT_OFFSET_US) ||
         !rho_is_within(batch->apart_max_m, RHO_CROSSING_BASE_MIN_M, 4.0f * RHO_LIMIT_POSITION_M)) {
         return 0;
     }
@@ -280,7 +290,8 @@ int rho_batch_is_sound(const struct rho_batch *batch)
         }
     }
     for (unsigned k = 0; k < batch->num_scans; k++) {
-        if (k > 0 && batch->time_us[k] <= batch->time_us[k - 1]) {
+        if ((k > 0 && batch->time_us[k] <= batch->time_us[k - 1]) ||
+            rho_seconds_between(batch->time_us[k], batch->newest_us) < 0.0f) {
             return 0;
         }
         for (unsigned s = 0; s < batch->num_sensors; s++) {

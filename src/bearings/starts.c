@@ -3,10 +3,10 @@
  * starts: phase 2 of the search. Two crossings are a constant-velocity hypothesis; those that most
  * bearings agree with are fitted to the bearings.
  */
+#include <string.h>
+
 #include "passive_search.h"
 #include "policy.h"
-#include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 /*
  * The 2 x 2 matrix that takes a target's displacement to how far from its middle place the rays of
@@ -74,9 +74,7 @@ static void list_partners(struct rho_passive_search *search)
         1u + (unsigned)(PAIR_ROWS_SHARE * (float)(passive->batch.num_scans - 2u));
     for (uint32_t i = 0; i < passive->num_points; i++) {
         struct rho_passive_partner *best = passive->partners[i];
-        for (unsigned n = 0; n < RHO_PASSIVE_PARTNERS; n++) {
-            best[n] = (struct rho_passive_partner){.agreement = 0.0f};
-        }
+        memset(best, 0, sizeof passive->partners[i]);
         for (uint32_t j = 0; j < passive->num_points; j++) {
             float state_m[RHO_PASSIVE_STATES];
             if (passive->points[j].scan < passive->points[i].scan + apart ||

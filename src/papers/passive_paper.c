@@ -48,13 +48,11 @@ enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t o
     paper->config = kept;
     paper->magic = RHO_PASSIVE_PAPER_MAGIC;
     /*
-     * A crossing is within range_max of two sensors, and so it is from the centroid at most
-     * range_max plus this share of the largest distance of two sensors: one half with two to four
-     * sensors, (n - 2) / n with more. All lines through crossings lie within the cells of rho.
+     * A crossing is within range_max of two sensors, so from the centroid range_max plus half their
+     * largest distance, with more than four sensors (n - 2) / n of it (rho_batch_accepts).
      */
-    float share = RHO_MAX_PASSIVE_SENSORS > 4 ? 0.75f : 0.5f;
     float reach_m = 0.5f * kept.rho_cell_m * (float)RHO_PAPER_RHO_CELLS - kept.range_max_m;
-    float apart_m = reach_m / share;
+    float apart_m = 2.0f * reach_m;
     apart_m = apart_m < 4.0f * RHO_LIMIT_POSITION_M ? apart_m : 4.0f * RHO_LIMIT_POSITION_M;
     apart_m = apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
     return rho_batch_init(&paper->batch, kept.scans, apart_m);

@@ -187,6 +187,11 @@ static int admit_found_track(struct step *step, uint32_t heir_id, const struct r
 {
     struct rho_tracker *tracker = step->tracker;
     const unsigned row = heir_id != 0 ? find_track(tracker, heir_id) : RHO_MAX_TRACKS;
+    /* on the scale of starts from plots, by which the life of tracks goes */
+    const int32_t start_mnat = step->passive->start_mnat > tracker->start_mnat
+                                   ? step->passive->start_mnat
+                                   : tracker->start_mnat;
+    const int32_t score_mnat = found->score_mnat - step->passive->start_mnat + start_mnat;
     const uint32_t track_id = heir_id != 0 ? heir_id : tracker->next_track_id;
     struct rho_track track;
     if (row < RHO_MAX_TRACKS) {
@@ -194,16 +199,16 @@ static int admit_found_track(struct step *step, uint32_t heir_id, const struct r
     }
     if (rho_track_start_estimate(&track, track_id, estimate, step->look.time_us, sensor_id,
                                  (uint16_t)rho_count_bits(found->scans), &step->look.model,
-                                 found->score_mnat) != RHO_OK) {
+                                 score_mnat) != RHO_OK) {
         if (row < RHO_MAX_TRACKS) {
             rho_step_end_track(step, row);
         }
         return 0;
     }
     if (row == RHO_MAX_TRACKS) {
-        return rho_step_admit(step, &track, step->passive->start_mnat);
+        return rho_step_admit(step, &track, start_mnat);
     }
-    rho_step_restart(step, row, &track, step->passive->start_mnat);
+    rho_step_restart(step, row, &track, start_mnat);
     return 1;
 }
 

@@ -779,21 +779,15 @@ static int configure_passive(struct script *script, struct rho_passive *passive)
     enum rho_status status;
 
     rho_passive_config_default(&config);
-    config.scans = how & 1                                ? 4
+    config.scans = how & 1                                ? RHO_BATCH_SCANS_MIN
                    : config.scans < RHO_MAX_PASSIVE_SCANS ? config.scans
                                                           : RHO_MAX_PASSIVE_SCANS;
-    config.rule = how & 2 ? RHO_GHOST_SAFE : (enum rho_ghost_rule)0;
     for (unsigned edits = how >> 6; edits > 0; edits--) {
-        float *const floats[] = {&config.range_max_m,
-                                 &config.v_max_mps,
-                                 &config.pd,
-                                 &config.field_of_view_rad,
-                                 &config.hits_min,
-                                 &config.rho_cell_m,
-                                 &config.theta_cell_rad,
-                                 &config.false_tracks_per_hour};
+        float *const floats[] = {&config.range_max_m, &config.v_max_mps,
+                                 &config.pd,          &config.field_of_view_rad,
+                                 &config.hits_min,    &config.false_tracks_per_hour};
 
-        *floats[read_byte(script) % 8] = read_extreme_float(script);
+        *floats[read_byte(script) % 6] = read_extreme_float(script);
     }
     status = rho_passive_init(passive, sizeof *passive, &config);
     if (status != RHO_OK) {
@@ -1238,6 +1232,32 @@ static void step_frame(struct script *script)
     }
 }
 
+/* Challenges tracks that are known by the script, of which some have been given bearings. */
+static void challenge_known_tracks(struct script *script, struct rho_passive *lone)
+{
+    struct rho_passive_known known_tracks[RHO_MAX_PASSIVE_TRACKS + 2];
+    const unsigned how = read_byte(script), num = how % (RHO_MAX_PASSIVE_TRACKS + 3);
+    unsigned num_rivals = 0;
+    enum rho_status status;
+
+    for (unsigned i = 0; i < num; i++) {
+        known_tracks[i] = (struct rho_passive_known){.track_id = 1 + i,
+                                                     .x_m = (float)uniform(-5e4, 5e4),
+                                                     .y_m = (float)uniform(-5e4, 5e4),
+                                                     .vx_mps = (float)uniform(-300, 300),
+                                                     .vy_mps = (float)uniform(-300, 300),
+                                                     .is_safe = how & 128 && i % 2,
+                                                     .is_beaten = 7};
+        num_rivals += !known_tracks[i].is_safe;
+    }
+    status = rho_passive_challenge(lone, known_tracks, num);
+    HOLDS("as many tracks as there is room for are challenged",
+          status == (num_rivals > RHO_MAX_PASSIVE_TRACKS ? RHO_ERROR_CAPACITY : RHO_OK));
+    for (unsigned i = 0; i < num; i++) {
+        HOLDS("a safe track is not beaten", known_tracks[i].is_beaten <= !known_tracks[i].is_safe);
+    }
+}
+
 static void use_own_passive_initiator(struct script *script)
 {
     static struct bearings seen;
@@ -1251,8 +1271,10 @@ static void use_own_passive_initiator(struct script *script)
     if (how & 128) {
         if (how & 1 && lone->num_tracks > 0) {
             HOLDS("a track of the last search has bearings to take",
-                  rho_passive_consume(lone, &lone->tracks[0]) <= lone->tracks[0].hits);
+                  rho_passive_give(lone, &lone->tracks[0], 1 + how % 4) == lone->tracks[0].hits);
             lone->num_tracks = 0; /* each found track may be taken once */
+        } else if (how & 2) {
+            challenge_known_tracks(script, lone);
         } else {
             status = rho_passive_search(lone);
             HOLDS("a search is taken", status == RHO_OK);

@@ -138,6 +138,8 @@ def write_scripts(folder):
     scripts["lone"] = world() + (bytes((push, 32, 3, 0, 6)) * 5 + bytes((search, 1, search, 4))) * 3
     scripts["lone-passive"] = world() + (bytes((passive, 3, 19)) * 5 + bytes(
         (passive, 128, passive, 129))) * 3
+    scripts["challenged"] = world() + bytes((passive, 3, 19)) * 5 + bytes(
+        (passive, 128, passive, 129, passive, 130, 3, passive, 3, 19, passive, 130, 131))
     first, last = bytes((232, 0x80, *bytes(7))), bytes((232, 0x7f, *(255,) * 7))
     scripts["ends-of-time"] = world() + b"".join(
         bytes((passive, 3)) + time for time in (first, b"\xd4", b"\3", last))

@@ -64,10 +64,18 @@ takes 'all columns' \
 'snr_db\n0,1,0,0,1,0.01,-1,2,9\n0,2,9,0,1,,,,\n'
 takes 'a place that is written in another way' "${header}0,1,0.10,0,1\n0,2,9,0,1\n1,1,0.1,-0,1\n"
 takes 'sensors a metre apart' "${header}0,1,0,0,1\n0,2,1,0,1\n"
+takes 'sensors in one place' "${header}0,1,0,0,1\n0,2,0,0,1\n"
+takes 'a sensor that moves' "${header}0,1,0,0,1\n0,2,100,0,1\n1,1,0,0.5,1\n1,2,100,0,1\n"
+takes 'a sensor that moves where it saw nothing' \
+    "${header}0,1,0,0,1\n0,2,100,0,1\n1,1,7,0,\n1,2,100,0,\n"
+takes 'sensors that change places' "${header}0,1,0,0,1\n0,2,9,0,1\n1,1,9,0,1\n1,2,0,0,1\n"
 printf "${header}0,1,0,0,1\n1,1,0,0,1\n" >one.csv
 printf "${header}0,2,0,9,1\n1,2,0,9,1\n" >two.csv
 run plot scans one.csv two.csv -o good.svg
 check 'a file a sensor' exits 0
+printf "${header}2,2,9,9,1\n3,1,0,3,1\n" >later.csv
+run plot scans one.csv later.csv -o good.svg
+check 'a sensor that another file has elsewhere' exits 0
 
 # ---- bad files ----
 refused() { # pattern
@@ -98,14 +106,12 @@ refuse 'a place NaN' "2: sensor_y_m 'nan' is not finite" "${header}0,1,0,nan,1\n
 refuse 'time that goes back' '4: time decreases from 0.000000 s to -1.000000 s' \
     "${good}-1,1,0,0,1\n"
 refuse 'time that goes back, in a row without bearing' '4: time decreases *' "${good}-1,1,0,0,\n"
-refuse 'a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' "${good}1,1,0,0.5,1\n"
-refuse 'a sensor that moves within a scan' '4: sensor 2 has moved: it was at 100, 0, line 3' \
-    "${good}0,2,101,0,1\n"
-refuse 'a sensor that moves where it saw nothing' '4: sensor 1 has moved: *' "${good}1,1,7,0,\n"
-refuse 'two sensors in one place' '3: sensor 2 has the same place as sensor 1: 0, 0, line 2' \
-    "${header}0,1,0,0,1\n0,2,0,0,1\n"
-refuse 'two sensors nearer than a metre' '3: sensor 2 has the same place as sensor 1: *' \
-    "${header}0,1,0,0,1\n0,2,0.7,0.7,1\n"
+for place in 101,0 100,0.5; do
+    refuse "a scan from two places: 100,0 and $place" \
+        "4: the sensor's place differs from that of the scan's first row" "${good}0,2,$place,1\n"
+done
+refuse 'a scan from two places, in a row without bearing' "4: the sensor's place differs *" \
+    "${good}0,2,101,0,\n"
 for number in $(seq 1 65); do echo "0,$number,0,${number}00,1"; done >many
 refuse 'more sensors than 64' '66: sensor 65 is beyond the limit of 64 sensors' \
     "$header$(cat many)\n"
@@ -133,8 +139,8 @@ refuse 'comments are lines too' '5: bearing_rad 4e6 is outside *' \
     "# one\n\n${header}# four\n0,1,0,0,4e6\n"
 printf "${header}0,2,9,9,1\n1,1,0,3,1\n" >second.csv
 run plot scans one.csv second.csv -o out.svg
-check 'a sensor that another file has elsewhere' refused \
-    'second.csv:3: sensor 1 has moved: it was at 0, 0, line 2 of one.csv'
+check 'a scan that another file has from elsewhere' refused \
+    'second.csv:3: sensor 1 has another scan at 1.000000 s: line 3 of one.csv'
 
 # ---- parameters ----
 run config --set sigma_rad=0.6
@@ -181,16 +187,10 @@ run initiate passive-two/bearings.csv --set scans=5
 check 'the last scans' matches "$(cat stderr)" 'rhotrack: the last 5 of 8 *'
 for range_m in 120000 500000; do
     run initiate passive-two/bearings.csv --set range_max_m=$range_m --json
-    check "cells follow from a range of $range_m m" json stdout 'o["tracks"] == 2'
+    check "a range of $range_m m" json stdout 'o["tracks"] == 2'
     run track passive-two/bearings.csv --set range_max_m=$range_m --json -o tracks.csv
     check "in track as well: $range_m m" json stdout 'o["tracks_confirmed"] == 2'
 done
-run initiate passive-two/bearings.csv --set range_max_m=200000 --set d_rho_m=2000
-check 'cells as set for the range' says 2 \
-    'rhotrack: range_max_m 200000 needs 200 cells of d_rho_m 2000; the limit is 128'
-run initiate passive-two/bearings.csv --set d_theta_rad=0.01
-check 'cells for half a turn' says 2 \
-    'rhotrack: d_theta_rad 0.01 needs 315 cells over half a turn; the limit is 36'
 for kind in parameter-space errors; do
     run plot "$kind" passive-two/bearings.csv passive-two/truth.csv -o out.svg
     check "plot $kind refuses bearings by name" refused \
@@ -199,9 +199,9 @@ done
 
 # ---- track ----
 # evaluate says: every target is found, by a track of its own that never changes, and there is no
-# other one.
+# other one. Tracks of the first few looks are uncertain by a kilometre.
 are_tracked() { # truth, tracks
-    run evaluate "$1" "$2" --json
+    run evaluate "$1" "$2" --json --set gospa_cutoff_m=2000
     exits 0 && json stdout '((o["targets_found"], o["tracks"], o["switches"],
         o["false_per_scan"]) == (o["targets"], o["targets"], 0, 0))'
 }
@@ -217,8 +217,8 @@ done
 check 'one line of summary' matches "$(run track long/bearings.csv -o tracks.csv; cat stderr)" \
     'rhotrack: 20 scans, * plots, 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; '\
 '* us a scan, * at most'
-check 'no tracks before the batch is full' matches "$(sed -n 2p tracks.csv | cut -d, -f1,3)" \
-    '70.000000,confirmed'
+check 'tracks from the third frame on' matches "$(sed -n 2p tracks.csv | cut -d, -f1,3)" \
+    '20.000000,confirmed'
 run track long/bearings.csv --config long/scenario.ini --covariance -o tracks.csv
 run evaluate long/truth.csv tracks.csv --json
 check 'the covariance is plausible' json stdout '0.5 < o["nees"] < 4'
@@ -247,6 +247,83 @@ check 'a file a sensor gives the same' cmp tracks.csv tracks2.csv
 run track skip.csv --keep-going -o tracks2.csv
 check 'keep-going skips a bad row' matches "$(cat stderr)" '*, 1 bad rows skipped; *'
 check 'and counts the others' cmp tracks.csv tracks2.csv
+
+# ---- track: sensors that look and stand as they like ----
+# Bearings of two targets every 10 s, of SENSORS: "NUMBER,X_M,Y_M,VX_MPS,VY_MPS,PHASE_S;...". All
+# files have the same noise.
+see() { # NAME, SENSORS
+    awk -v name="$1" -v list="$2" 'function noise(  i, sum) {
+            for (i = 0; i < 12; i++) sum += rand(); return sum - 6
+        }
+        BEGIN {
+            srand(5)
+            x[1] = 60000; y[1] = 15000; vx[1] = -200; vy[1] = -60
+            x[2] = 50000; y[2] = -25000; vx[2] = -120; vy[2] = 150
+            count = split(list, sensors, ";")
+            print "t_s,target_id,x_m,y_m" >(name ".truth.csv")
+            print "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad" >(name ".csv")
+            for (k = 0; k <= 40; k++) for (i = 1; i <= 2; i++)
+                printf "%d,%d,%d,%d\n", 5 * k, i, x[i] + 5 * k * vx[i],
+                    y[i] + 5 * k * vy[i] >(name ".truth.csv")
+            for (k = 0; k < 20; k++) for (s = 1; s <= count; s++) {
+                split(sensors[s], at, ",")
+                t = 10 * k + at[6]; px = at[2] + t * at[4]; py = at[3] + t * at[5]
+                for (i = 1; i <= 2; i++) {
+                    bearing = atan2(y[i] + t * vy[i] - py, x[i] + t * vx[i] - px)
+                    printf "%.1f,%d,%.2f,%.2f,%.7f\n", t, at[1], px, py,
+                        bearing + 0.00175 * noise() >(name ".csv")
+                }
+            }
+        }'
+    run track "$1.csv" --set v_max_mps=450 --set accel_max_mps2=5 -o "$1.tracks.csv"
+    check "$1: exit 0" exits 0
+}
+error_of() { # NAME
+    run evaluate "$1.truth.csv" "$1.tracks.csv" --json
+    python3 -c 'import json; print(round(json.load(open("stdout"))["rmse_m"] or 1e9))'
+}
+is_as_good_as() { # NAME, PERCENT of the error of `together`
+    are_tracked "$1.truth.csv" "$1.tracks.csv" || return
+    echo "error $(error_of "$1") m, of sensors that look together $(error_of together) m"
+    [ "$(error_of "$1")" -lt $(($(error_of together) * $2 / 100)) ]
+}
+see together '1,0,-10000,0,0,0;2,0,10000,0,0,0'
+check 'sensors that look together' is_as_good_as together 101
+see apart '1,0,-10000,0,0,0;2,0,10000,0,0,1'
+check 'sensors that look 1 s apart' is_as_good_as apart 125
+run track apart.csv -o again.csv
+check 'and say nothing of their frames' says 0 \
+    'rhotrack: 40 scans, 80 plots, 2 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; *'
+check 'whose tracks start as early' matches "$(sed -n 2p apart.tracks.csv | cut -d, -f1)" \
+    "$(sed -n 2p together.tracks.csv | cut -d, -f1 | cut -c 1)?.000000"
+run initiate apart.csv --json
+check 'and that initiate finds' json stdout '(o["sensors"], o["tracks"]) == (2, 2)'
+check 'in as many looks of each' matches "$(cat stderr)" \
+    'rhotrack: the last 16 of 40 frames are used'
+see turns '1,0,-10000,0,0,0;2,0,10000,0,0,5'
+check 'sensors that take turns' is_as_good_as turns 125
+see moving '1,0,-10000,20,30,0;2,0,10000,30,-20,0'
+check 'sensors that move' is_as_good_as moving 125
+see moving-turns '1,0,-10000,20,30,0;2,0,10000,30,-20,4'
+check 'sensors that move and take turns' is_as_good_as moving-turns 140
+see pair '1,0,-10000,0,0,0;2,0,10000,0,0,0;3,10000,0,0,0,0;4,10000,0,0,0,0'
+check 'two sensors at one place beside two others' is_as_good_as pair 100
+see five '1,0,-10000,0,0,0;2,0,10000,0,0,0;3,10000,0,0,0,0;4,-10000,0,0,0,0;5,5000,-20000,0,0,0'
+check 'five sensors' is_as_good_as five 75
+run initiate five.csv --json
+check 'and initiate' json stdout '(o["sensors"], o["tracks"]) == (5, 2)'
+see one-place '1,0,0,0,0,0;2,0,0,0,0,0'
+check 'one place alone gives no track' matches "$(wc -l <one-place.tracks.csv)" 1
+run initiate one-place.csv --json
+check 'and initiate finds none' json stdout '(o["sensors"], o["tracks"]) == (2, 0)'
+run track one-place.csv pair.csv
+check 'a scan that two files state' says 2 'rhotrack: pair.csv:2: sensor 1 has another scan at *'
+awk -F, -v OFS=, 'NR == 13 { $3 += 1 } { print }' together.csv >torn.csv
+run track torn.csv -o torn.tracks.csv
+check 'a scan whose rows state two places' says 2 \
+    "rhotrack: torn.csv:13: the sensor's place differs from that of the scan's first row"
+run track torn.csv --keep-going --json -o torn.tracks.csv
+check 'of which one is left out' json stdout '(o["plots"], o["tracks_confirmed"]) == (79, 2)'
 
 # ---- track: a radar's plots and bearings ----
 # Two targets for 20 scans, 10 s apart, of a radar with 300 m of noise, and 5 s later of two passive

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# initiate on bearings: pruning, what the methods refuse, and the paper's method (passive-paper).
+# initiate on bearings: what the methods refuse, and the paper's method (passive-paper).
 # Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
@@ -10,25 +10,13 @@ for scenario in passive-two passive-three passive-clutter; do
 done
 
 # ---- the default search ----
-run initiate passive-two/bearings.csv --set scans=3
-check 'too few scans' says 2 'rhotrack: scans 3 are too few for bearings: 4 or more'
+run initiate passive-two/bearings.csv --set scans=2
+check 'too few scans' says 2 'rhotrack: --set scans=2: scans 2 is outside 3 .. 12'
+run initiate passive-two/bearings.csv --set scans=3 --json
+check 'three scans are enough' json stdout '(o["scans"], o["tracks"]) == (3, 2)'
 run initiate passive-two/bearings.csv --set range_max_m=999
 check 'too short a range' says 2 \
     'rhotrack: range_max_m 999 is outside 1000 .. 500000 m for bearings'
-# A false bearing leads the literal rule astray.
-run initiate passive-clutter/bearings.csv --json
-cp stdout safe.json
-run initiate passive-clutter/bearings.csv --json --set prune=safe
-check 'safe pruning is the default' json stdout \
-    'o["ghosts"] == json.load(open("safe.json"))["ghosts"]'
-run initiate passive-clutter/bearings.csv --json --set prune=literal
-check 'literal pruning takes more' json stdout \
-    'o["ghosts"] > json.load(open("safe.json"))["ghosts"]'
-run initiate passive-two/bearings.csv --json
-cp stdout safe.json
-run initiate passive-two/bearings.csv --json --set prune=none
-check 'and none less' json stdout 'o["ghosts"] < json.load(open("safe.json"))["ghosts"]'
-
 # ---- initiation by the paper's method ----
 # A line that is asked for passes within 6 degrees and 3 km of each target's path.
 lines_are_near() { # lines, truth

@@ -18,7 +18,8 @@
 #include "passive_scene.h"
 #include "rhotrack/tracker.h"
 
-#define BATCH 8u /* frames in a batch of the default configuration */
+#define BATCH 8u    /* frames in a batch of the default configuration */
+#define ROWS_MIN 3u /* frames from which on tracks start */
 
 static struct rho_tracker tracker;
 static struct rho_passive passive;
@@ -65,13 +66,14 @@ static inline void see_frame(unsigned k, double time_s)
 
 /* ---- steps ----------------------------------------------------------------------------------- */
 
-static inline uint32_t count_bearings_held_in_batch(void)
+/* Number of bearings in the batch that a track took; 0: that none did. */
+static inline uint32_t count_bearings_of_track_in_batch(uint32_t track_id)
 {
     uint32_t count = 0;
     for (unsigned k = 0; k < passive.batch.num_scans; k++) {
         for (unsigned s = 0; s < passive.batch.num_sensors; s++) {
             for (unsigned i = 0; i < passive.batch.num_bearings[k][s]; i++) {
-                count += passive.batch.bearings[k][s][i].sigma_rad > 0.0f;
+                count += passive.batch.bearings[k][s][i].owner.track_id == track_id;
             }
         }
     }
@@ -104,6 +106,7 @@ static inline void check_report(void)
     for (unsigned i = 0; i < report.num_tracks; i++) {
         const struct rho_track_report *track = &report.tracks[i];
         assert_true(i == 0 || report.tracks[i - 1].track_id < track->track_id);
+        assert_int_not_equal(track->status, RHO_TRACK_FREE);
         assert_true(isfinite(track->sigma_m) && isfinite(track->score_nat));
         for (int k = 0; k < RHO_KALMAN_STATES; k++) {
             assert_true(isfinite(track->state[k]));
@@ -132,6 +135,20 @@ static inline void fly_frames(unsigned from, unsigned to, double interval_s)
 {
     for (unsigned k = from; k < to; k++) {
         fly_frame(k, interval_s);
+    }
+}
+
+/* Steps with the scans of frame k as frames of their own, which follow one another evenly. */
+static inline void fly_sensors_in_turn(unsigned k, double interval_s)
+{
+    for (unsigned s = 0; s < scene.sensors; s++) {
+        scene.offset_s[s] = interval_s * s / scene.sensors;
+    }
+    see_frame(k, interval_s * k);
+    for (uint32_t i = 0; i < full.frame.num_scans; i++) {
+        const struct rho_frame frame = {
+            .time_us = full.scans[i].time_us, .num_scans = 1, .scans = &full.scans[i]};
+        step_frame(&frame);
     }
 }
 

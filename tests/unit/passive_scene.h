@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scenes of targets that fly towards passive sensors: bearings with noise, misses and false ones,
- * and frames of them. The truth is in double precision.
+ * Scenes of targets that fly towards passive sensors, which may move and look at times of their
+ * own: bearings with noise, misses and false ones, and frames of them. The truth is in double
+ * precision.
  */
 #ifndef PASSIVE_SCENE_H
 #define PASSIVE_SCENE_H
@@ -15,7 +16,7 @@
 #define PI 3.14159265358979323846
 #define DEG_RAD (PI / 180.0)
 #define SCENE_SCANS 16
-#define SCENE_SENSORS 4
+#define SCENE_SENSORS 8
 #define SCENE_TARGETS 4
 #define LOOK_MAX 64u
 
@@ -72,7 +73,10 @@ struct scene {
     double pd, false_bearings;
     double jitter_s; /* largest deviation of intervals from 10 s */
     double time_s[SCENE_SCANS];
-    double sensor_x_m[SCENE_SENSORS], sensor_y_m[SCENE_SENSORS];
+    double sensor_x_m[SCENE_SENSORS], sensor_y_m[SCENE_SENSORS]; /* at time 0 */
+    double sensor_vx_mps[SCENE_SENSORS], sensor_vy_mps[SCENE_SENSORS];
+    double offset_s[SCENE_SENSORS]; /* of the sensor's looks, after the scans' times */
+    int has_single_scans;           /* each scan is a frame of its own */
     struct target target[SCENE_TARGETS];
     struct look look[SCENE_SCANS][SCENE_SENSORS];
 };
@@ -80,8 +84,8 @@ struct scene {
 static inline struct scene scene_of(unsigned sensors, unsigned targets, double sigma_deg, double pd,
                                     double false_bearings)
 {
-    static const double x_m[SCENE_SENSORS] = {0.0, 0.0, 10e3, -10e3};
-    static const double y_m[SCENE_SENSORS] = {-10e3, 10e3, 0.0, 0.0};
+    static const double x_m[SCENE_SENSORS] = {0.0, 0.0, 10e3, -10e3, 5e3, -5e3, -5e3, 5e3};
+    static const double y_m[SCENE_SENSORS] = {-10e3, 10e3, 0.0, 0.0, -20e3, -20e3, 20e3, 20e3};
     struct scene scene;
     memset(&scene, 0, sizeof scene);
     scene.sensors = sensors;
@@ -161,15 +165,32 @@ static inline void shuffle(struct look *look)
     }
 }
 
+/* When and where sensor s looks in scan k. */
+static inline double look_time_s(const struct scene *scene, unsigned k, unsigned s)
+{
+    return scene->time_s[k] + scene->offset_s[s];
+}
+
+static inline double look_x_m(const struct scene *scene, unsigned k, unsigned s)
+{
+    return scene->sensor_x_m[s] + look_time_s(scene, k, s) * scene->sensor_vx_mps[s];
+}
+
+static inline double look_y_m(const struct scene *scene, unsigned k, unsigned s)
+{
+    return scene->sensor_y_m[s] + look_time_s(scene, k, s) * scene->sensor_vy_mps[s];
+}
+
 static inline void see_look(struct scene *scene, unsigned k, unsigned s)
 {
     struct look *look = &scene->look[k][s];
+    const double time_s = look_time_s(scene, k, s);
     look->count = 0;
     for (unsigned i = 0; i < scene->targets; i++) {
         double sigma_rad = uniform(scene->sigma_from_rad, scene->sigma_to_rad), error = normal();
         if (uniform(0.0, 1.0) < scene->pd) {
-            double dx_m = target_x_m(&scene->target[i], scene->time_s[k]) - scene->sensor_x_m[s];
-            double dy_m = target_y_m(&scene->target[i], scene->time_s[k]) - scene->sensor_y_m[s];
+            double dx_m = target_x_m(&scene->target[i], time_s) - look_x_m(scene, k, s);
+            double dy_m = target_y_m(&scene->target[i], time_s) - look_y_m(scene, k, s);
             add_bearing(look, atan2(dy_m, dx_m) + sigma_rad * error, sigma_rad, (int)i);
         }
     }
@@ -206,7 +227,7 @@ static inline void draw_scene(struct scene *scene)
     see_all_looks(scene);
 }
 
-/* Rotates the scene about the origin, then shifts it; bearings rotate, too. */
+/* Rotates sensors that stand about the origin, then shifts them; bearings rotate, too. */
 static inline void move_scene(struct scene *scene, double turn_rad, double x_m, double y_m)
 {
     double c = cos(turn_rad), s = sin(turn_rad);
@@ -245,10 +266,10 @@ static inline void fill_frame(const struct scene *scene, unsigned k, struct full
         const struct look *look = &scene->look[k][s];
         if (!look->is_absent) {
             full->scans[full->frame.num_scans++] =
-                (struct rho_bearing_scan){.time_us = full->frame.time_us,
+                (struct rho_bearing_scan){.time_us = llround(look_time_s(scene, k, s) * 1e6),
                                           .sensor_id = (int32_t)(10 + s),
-                                          .x_m = (float)scene->sensor_x_m[s],
-                                          .y_m = (float)scene->sensor_y_m[s],
+                                          .x_m = (float)look_x_m(scene, k, s),
+                                          .y_m = (float)look_y_m(scene, k, s),
                                           .sector_from_rad = (float)look->sector_from_rad,
                                           .sector_to_rad = (float)look->sector_to_rad,
                                           .num_bearings = look->count,
@@ -261,8 +282,17 @@ static inline enum rho_status push_scan(struct rho_passive *passive, const struc
                                         unsigned k)
 {
     struct full_frame full;
+    enum rho_status status = RHO_OK;
     fill_frame(scene, k, &full);
-    return rho_passive_push(passive, &full.frame, full.fates);
+    if (!scene->has_single_scans) {
+        return rho_passive_push(passive, &full.frame, full.fates);
+    }
+    for (unsigned i = 0; i < full.frame.num_scans && status == RHO_OK; i++) {
+        const struct rho_frame frame = {
+            .time_us = full.scans[i].time_us, .num_scans = 1, .scans = &full.scans[i]};
+        status = rho_passive_push(passive, &frame, full.fates);
+    }
+    return status;
 }
 
 /* Pushes the scans from `first` on, until one is refused; returns the last status. */

@@ -36,7 +36,7 @@ struct tracking {
 };
 
 /*
- * Describes all passive sensors at the start, as they do not move; exit 2 where bearings of sensors
+ * Describes all passive sensors at the start; exit 2 where bearings of sensors
  * so many or so far apart cannot be searched.
  */
 static void check_and_set_passive_sensors(struct tracking *tracking,

@@ -301,20 +301,59 @@ static void keep_last_skips_all_but_the_last_frames(void **state)
     close_and_delete_files(&given);
 }
 
+/* Where each frame has one sensor's scan, as many frames of each sensor are kept. */
+static void keep_last_counts_looks_of_each_sensor_where_they_take_turns(void **state)
+{
+    struct given given = open_reader_of_text(HEADER "0,1,0,0,1\n5,2,9,0,1\n10,1,0,0,1\n15,2,9,0,1\n"
+                                                    "20,1,0,0,1\n25,2,9,0,1\n");
+    (void)state;
+
+    bearing_reader_keep_last(given.reader, 2);
+    assert_frames(&given, (const char *[]){"10000: 1(1)", "15000: 2(1)", "20000: 1(1)",
+                                           "25000: 2(1)", "end"});
+    close_and_delete_files(&given);
+}
+
+/* Each scan has the place of its rows; of a sensor its first place and farthest way are told. */
+static void sensors_may_move_and_stand_together(void **state)
+{
+    struct given given =
+        open_reader_of_text(HEADER "0,1,0,0,1\n0,2,0,0,1\n10,1,30,40,1\n10,2,0,0,1\n"
+                                   "20,1,3,4,1\n20,2,0,0,\n");
+    const struct frame_sensor *sensors;
+    const struct rho_frame *frame;
+    size_t count;
+    (void)state;
+
+    sensors = bearing_reader_sensors(given.reader, &count);
+    assert_int_equal(count, 2);
+    assert_true(sensors[0].x_m == 0.0f && sensors[0].y_m == 0.0f);
+    assert_float_equal(sensors[0].moves_m, 50.0, 1e-9);
+    assert_float_equal(sensors[1].moves_m, 0.0, 0.0);
+    frame = bearing_reader_next(given.reader);
+    assert_int_equal(frame->num_scans, 2);
+    assert_true(frame->scans[0].x_m == 0.0f && frame->scans[0].y_m == 0.0f);
+    frame = bearing_reader_next(given.reader);
+    assert_true(frame->scans[0].x_m == 30.0f && frame->scans[0].y_m == 40.0f);
+    assert_true(frame->scans[1].x_m == 0.0f && frame->scans[1].y_m == 0.0f);
+    frame = bearing_reader_next(given.reader);
+    assert_true(frame->scans[0].x_m == 3.0f && frame->scans[0].y_m == 4.0f);
+    close_and_delete_files(&given);
+}
+
 static void bad_rows_are_skipped_and_counted(void **state)
 {
     struct given given =
         given_file_with(HEADER "0,1,0,0,1\n0,1,0,0,4e6\n" /* row without an angle */
-                               "0,2,0,0,1\n"              /* the place of sensor 1 */
                                "0,2,9,0,1\n"
-                               "10,2,10,0,1\n" /* the sensor has moved */
-                               "-1,2,9,0,1\n"  /* the time goes back */
-                               "10,2\n"        /* too few cells */
+                               "0,2,10,0,1\n" /* another place in the same scan */
+                               "-1,2,9,0,1\n" /* the time goes back */
+                               "10,2\n"       /* too few cells */
                                "10,1,0,0,1\n");
     (void)state;
 
     open_reader(&given, true);
-    assert_int_equal(bearing_reader_counts(given.reader).rows_skipped, 5);
+    assert_int_equal(bearing_reader_counts(given.reader).rows_skipped, 4);
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "10000: 1(1)", "end"});
     close_and_delete_files(&given);
 }
@@ -447,6 +486,8 @@ int main(void)
         cmocka_unit_test(several_files_are_merged_by_time),
         cmocka_unit_test(sensors_are_listed_by_ascending_id),
         cmocka_unit_test(keep_last_skips_all_but_the_last_frames),
+        cmocka_unit_test(keep_last_counts_looks_of_each_sensor_where_they_take_turns),
+        cmocka_unit_test(sensors_may_move_and_stand_together),
         cmocka_unit_test(bad_rows_are_skipped_and_counted),
         cmocka_unit_test(files_of_bearings_are_recognised_by_their_header),
         cmocka_unit_test(live_frames_equal_those_of_the_reader),

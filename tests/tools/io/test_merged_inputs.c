@@ -285,7 +285,7 @@ static void bad_rows_of_both_kinds_are_skipped_and_counted(void **state)
     (void)state;
 
     add_file_with(&given, PLOTS "0,1,5,5\n0,1,nan,5\n1,1,5,5\n");
-    add_file_with(&given, BEARINGS "0,8,0,0,4e6\n0,8,0,0,1\n0,9,9,0,1\n1,9,8,0,1\n");
+    add_file_with(&given, BEARINGS "0,8,0,0,4e6\n0,8,0,0,1\n0,9,9,0,1\n0,9,8,0,1\n");
     open_inputs(&given, true);
     assert_inputs(&given, (const char *[]){"0: s1(1)", "0: f 8(1) 9(1)", "1000: s1(1)", "end"});
     counts = merged_inputs_counts(given.inputs);

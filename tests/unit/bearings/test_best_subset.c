@@ -14,7 +14,8 @@
 #include "../../src/bearings/passive_search.h"
 
 static struct rho_passive passive;
-static struct rho_passive_search search = {.passive = &passive, .share_nat = 100.0f};
+static struct rho_passive_search search = {
+    .passive = &passive, .half_s = 35.0f, .share_nat = 100.0f};
 
 /* Adds a candidate that claims bearing 1 of sensor 0 in the scans of this bit mask. */
 static void add_candidate(float score_nat, unsigned scans)
@@ -32,6 +33,11 @@ static void begin_candidates(void)
     memset(&passive, 0, sizeof passive);
     passive.batch.num_scans = 8;
     passive.batch.num_sensors = 1;
+    passive.config.range_max_m = 100e3f;
+    for (unsigned k = 0; k < 8; k++) {
+        passive.batch.bearings[k][0][0] =
+            (struct rho_batch_bearing){.cosine = 1.0f, .sigma_rad = 1e-3f};
+    }
 }
 
 /*
@@ -91,6 +97,9 @@ static void a_candidate_sharing_70_percent_of_bearings_is_excluded(void **state)
         add_candidate(20.0f, 0xff);
         passive.candidates[0].hits = 10;
         add_candidate(10.0f, i ? 0x7f : 0x3f);
+        passive.candidates[0].state_m[RHO_PASSIVE_X] = 50e3f;
+        passive.candidates[1].state_m[RHO_PASSIVE_X] = 50e3f;
+        passive.candidates[1].state_m[RHO_PASSIVE_Y] = 5e3f; /* not where the first one is */
         rho_passive_choose(&search, &best);
         assert_int_equal(best.is_in[0], 1);
         rho_passive_exclude_target(&best, 0);
@@ -101,12 +110,37 @@ static void a_candidate_sharing_70_percent_of_bearings_is_excluded(void **state)
     }
 }
 
+/*
+ * Eight bearings of 1 mrad at 50 km leave a sigma of 50 m / sqrt(8) across them: a candidate within
+ * five of these is at the target, though it shares no bearing with it.
+ */
+static void a_candidate_within_five_sigmas_of_a_target_is_excluded(void **state)
+{
+    struct rho_passive_choice best;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        begin_candidates();
+        add_candidate(20.0f, 0xff);
+        add_candidate(10.0f, 0);
+        passive.candidates[0].state_m[RHO_PASSIVE_X] = 50e3f;
+        passive.candidates[1].state_m[RHO_PASSIVE_X] = 50e3f;
+        passive.candidates[1].state_m[RHO_PASSIVE_Y] = (i ? 4.95f : 5.05f) * 50.0f / 2.828427f;
+        rho_passive_choose(&search, &best);
+        assert_int_equal(best.is_in[0] + best.is_in[1], 2);
+        rho_passive_exclude_target(&best, 0);
+        assert_int_equal(best.is_out[0], 1);
+        assert_int_equal(best.is_out[1], i);
+        assert_int_equal(best.is_in[1], !i);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_best_subset_of_the_first_twelve_starts_is_chosen),
         cmocka_unit_test(a_candidate_worth_less_than_a_millinat_is_left_out),
         cmocka_unit_test(a_candidate_sharing_70_percent_of_bearings_is_excluded),
+        cmocka_unit_test(a_candidate_within_five_sigmas_of_a_target_is_excluded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

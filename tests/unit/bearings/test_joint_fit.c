@@ -125,10 +125,10 @@ static void search_formations(struct count *count, double apart_m, double mps, d
 }
 
 /*
- * The last fit moves tracks a little after bearings were claimed: one claim in a thousand may be
- * worse.
+ * The pair that gains most goes first, which is not always the best assignment: one claim in two
+ * hundred may be exchanged for a better one.
  */
-static void test_bearings_of_each_scan_are_assigned_to_tracks_optimally(void **state)
+static void test_bearings_of_each_scan_are_assigned_to_tracks_well(void **state)
 {
     (void)state;
     struct count count = {0};
@@ -137,20 +137,17 @@ static void test_bearings_of_each_scan_are_assigned_to_tracks_optimally(void **s
     search_formations(&count, 300.0, 3.0, 0.9);
     search_formations(&count, 600.0, 10.0, 0.9);
     search_formations(&count, 1000.0, 30.0, 0.9);
-    assert_in_range(count.exchanges, 0, 4);
+    assert_in_range(count.exchanges, 0, 80);
     assert_in_range(count.left, 0, 6);
     assert_in_range(count.tracks, count.targets * 97 / 100, count.targets);
-    /*
-     * A better set of tracks found later replaces the best one, more than twice in 13 searches:
-     * 101454.6 nat. With two replacements at most it would be 13 nat less.
-     */
-    assert_true(count.score_nat > 101448.0);
+    /* the evidence of all tracks: 109510.5 nat; with the best exchanges 110096.7 */
+    assert_true(count.score_nat > 109500.0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bearings_of_each_scan_are_assigned_to_tracks_optimally),
+        cmocka_unit_test(test_bearings_of_each_scan_are_assigned_to_tracks_well),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -569,20 +569,23 @@ static void scans_wait_for_an_open_frame_of_bearings(void **state)
     assert_string_equal(done, WAITING > 0 ? "FSSSSS" : "FS");
 }
 
-static void a_moved_passive_sensor_is_accepted_after_a_while(void **state)
+/* A scan of a sensor is taken wherever it stands, and the frames begin not anew. */
+static void a_moving_passive_sensor_is_heard_from_everywhere(void **state)
 {
     (void)state;
     start_default_node();
-    for (int32_t k = 0; k < 4; k++, now_us += SECOND_US) {
-        send_bearing(1, 0.0f, k, now_us);
+    for (int32_t k = 0; k < 21; k++, now_us += SECOND_US) {
+        const float y_m = k < 4 ? 0.0f : 500.0f * (float)k;
+        send_bearing(1, y_m, k, now_us);
+        send_bearing(2, y_m, k, now_us); /* both at one place */
+        assert_int_equal(node.frames.num_sensors, 2);
+        for (int i = 0; i < 2; i++) {
+            assert_float_equal(node.frames.sensors[i].y_m, y_m, 0.0);
+        }
     }
-    for (int32_t k = 4; k < 21; k++, now_us += SECOND_US) {
-        send_bearing(1, 500.0f, k, now_us);
-    }
-    assert_int_equal(node.counters.bearings_refused, 16);
-    assert_int_equal(node.frames.num_sensors, 1);
-    assert_true(node.frames.sensors[0].y_m > 400.0f);
+    assert_int_equal(node.counters.bearings_refused, 0);
     assert_int_equal(node.counters.restarts, 0);
+    assert_int_equal(node.frames.counters.frames_incomplete, 0);
 }
 
 static void passive_sensors_have_the_range_of_the_initiation(void **state)
@@ -599,30 +602,28 @@ static void passive_sensors_have_the_range_of_the_initiation(void **state)
     assert_true(node.tracker.sensors[0].sensor.range_max_m <= 90000.0f);
 }
 
-/* Sensors farther apart than the search's cells reach are refused. */
-static void passive_sensors_far_apart_are_refused(void **state)
+/* Sensors farther apart than the paper's cells reach are refused by its method alone. */
+static void passive_sensors_far_apart_are_refused_by_the_papers_method(void **state)
 {
+    (void)state;
     for (uint8_t is_by_paper = 0; is_by_paper <= RHO_PAPERS; is_by_paper++) {
         struct rho_node_config config = default_config();
-        float apart_max_m;
+        float far_m = RHO_LIMIT_POSITION_M;
 
-        (void)state;
         config.options.is_bearings_by_paper = is_by_paper;
         start_node(&config);
 #if RHO_PAPERS
-        apart_max_m =
-            is_by_paper ? node.passive_paper.batch.apart_max_m : node.passive.batch.apart_max_m;
-#else
-        apart_max_m = node.passive.batch.apart_max_m;
+        far_m = is_by_paper ? node.passive_paper.batch.apart_max_m : far_m;
 #endif
         for (int32_t scan = 0; scan < 3; scan++) {
             send_bearing(1, -10000.0f, scan, now_us + 10000000 * scan);
             send_bearing(2, 10000.0f, scan, now_us + 10000000 * scan);
-            send_bearing(3, apart_max_m, scan, now_us + 10000000 * scan);
+            send_bearing(3, far_m, scan, now_us + 10000000 * scan);
             run_until(INT64_MAX);
         }
         assert_string_equal(done, "FFF");
-        assert_int_equal(node.counters.bearings_refused, 3);
+        assert_int_equal(node.counters.bearings_refused, is_by_paper ? 3 : 0);
+        assert_int_equal(node.frames.num_sensors, is_by_paper ? 2 : 3);
     }
 }
 
@@ -689,9 +690,9 @@ int main(void)
         cmocka_unit_test(zones_count_on_over_a_restart),
         cmocka_unit_test(frames_close_at_the_next_frame_or_by_timeout),
         cmocka_unit_test(scans_wait_for_an_open_frame_of_bearings),
-        cmocka_unit_test(a_moved_passive_sensor_is_accepted_after_a_while),
+        cmocka_unit_test(a_moving_passive_sensor_is_heard_from_everywhere),
         cmocka_unit_test(passive_sensors_have_the_range_of_the_initiation),
-        cmocka_unit_test(passive_sensors_far_apart_are_refused),
+        cmocka_unit_test(passive_sensors_far_apart_are_refused_by_the_papers_method),
         cmocka_unit_test(the_papers_methods_start_tracks),
         cmocka_unit_test(a_refusal_by_the_papers_method_leaves_the_step),
     };

@@ -756,12 +756,17 @@ static void test_invalid_fields_with_a_right_checksum_are_refused(void **state)
     NONSENSE(1, rho_initiator, window.ring[0].time_us, int64_t, INT64_MAX);
     NONSENSE(3, rho_passive, magic, uint32_t, 0);
     NONSENSE(3, rho_passive, num_tracks, uint16_t, RHO_MAX_PASSIVE_TRACKS + 1);
-    NONSENSE(3, rho_passive, config.theta_cell_rad, float, 1e-9f);
+    NONSENSE(3, rho_passive, config.hits_min, float, 0.0f);
     NONSENSE(3, rho_passive, batch.num_scans, uint16_t, RHO_MAX_PASSIVE_SCANS + 1);
     NONSENSE(3, rho_passive, batch.num_sensors, uint16_t, RHO_MAX_PASSIVE_SENSORS + 1);
     NONSENSE(3, rho_passive, batch.num_bearings[0][0], uint8_t, RHO_MAX_BEARINGS + 1);
-    NONSENSE(3, rho_passive, batch.sensors[1].x_m, float, -8e3f);
+    NONSENSE(3, rho_passive, batch.sensors[1].x_m, float, 3e6f);
+    NONSENSE(3, rho_passive, batch.looks[0][1].y_m, float, nan);
+    NONSENSE(3, rho_passive, batch.was_seen[0][0], uint8_t, 2);
+    NONSENSE(3, rho_passive, batch.time_us[1], int64_t, chain.passive.batch.time_us[0]);
+    NONSENSE(3, rho_passive, batch.newest_us, int64_t, INT64_MAX);
     NONSENSE(3, rho_passive, batch.bearings[0][0][0].bearing_rad, float, nan);
+    NONSENSE(3, rho_passive, batch.bearings[0][0][0].owner.density_nat, float, nan);
     assert_int_equal(load_image(&other, image_bytes), RHO_OK);
 }
 

@@ -153,7 +153,7 @@
     X(VOTE, "vote", "-", 0, 0, 1, 1, 1,                                                            \
       "ht, passive-paper: a cell's votes are distinct scans, or plots")                            \
     X(PRUNE, "prune", "-", 0, 0, 2, 1, 1,                                                          \
-      "passive, passive-paper: which crossings of bearings are left out as ghosts")                \
+      "passive-paper: which crossings of bearings are left out as ghosts")                         \
     X(METHOD, "method", "-", 0, 0, 4, 1, 1,                                                        \
       "track, node: how plots start tracks; --method goes before it")                              \
     X(BEARINGS_METHOD, "bearings_method", "-", 0, 0, 1, 1, 1,                                      \
