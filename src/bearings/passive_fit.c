@@ -36,8 +36,8 @@ static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas
 }
 
 /*
- * Normal equations of the nearest unclaimed bearings within the gate, or of the claimed ones
- * (claim) at any distance; with weak priors of position and speed.
+ * Normal equations of the nearest unclaimed bearings within the gate, or with gate 0 of the
+ * claimed ones (claim); with weak priors of position and speed.
  */
 static struct rho_passive_equations
 equations_of_bearings(const struct rho_passive_search *search, const float state_m[N], float gate,
@@ -49,9 +49,9 @@ equations_of_bearings(const struct rho_passive_search *search, const float state
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                claim ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
-                      : rho_passive_match_nearest(search, k, s, state_m, 0);
-            if (nearest.bearing >= 0 && (claim || is_in_gate(&nearest, gate))) {
+                gate > 0.0f ? rho_passive_match_nearest(search, k, s, state_m, 0)
+                            : rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
+            if (nearest.bearing >= 0 && (!(gate > 0.0f) || is_in_gate(&nearest, gate))) {
                 add_bearing_equation(search->at[k][s].step, &nearest, &equations);
             }
         }
