@@ -30,22 +30,22 @@ static int shares_most_of(const struct rho_passive_search *search,
            DUPLICATE_SHARE * (float)owner->hits;
 }
 
-int rho_passive_offer_if_track(struct rho_passive_search *search,
-                               const float state_m[RHO_PASSIVE_STATES])
+void rho_passive_offer_if_track(struct rho_passive_search *search,
+                                const float state_m[RHO_PASSIVE_STATES])
 {
     struct rho_passive_candidate candidate = {.known = 0};
     float chi2;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
     rho_passive_claim_nearest(search, &candidate);
     if (!rho_passive_score_claimed(search, &candidate, &chi2)) {
-        return 0;
+        return;
     }
     struct rho_passive *passive = search->passive;
     struct rho_passive_candidate *list = passive->candidates;
     for (unsigned i = 0; i < passive->num_candidates; i++) {
         if ((list[i].known > 0 || list[i].score_nat >= candidate.score_nat) &&
             shares_most_of(search, &candidate, &list[i])) {
-            return 1; /* a better duplicate is there */
+            return; /* a better duplicate is there */
         }
     }
     for (unsigned i = passive->num_candidates; i > 0; i--) {
@@ -55,7 +55,7 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
     }
     if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
         list[passive->num_candidates++] = candidate;
-        return 1;
+        return;
     }
     /* a full list drops its lowest score, or the new candidate */
     unsigned lowest = 0;
@@ -69,7 +69,6 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
     if (candidate.score_nat > list[lowest].score_nat) {
         list[lowest] = candidate;
     }
-    return 1;
 }
 
 void rho_passive_rank_candidates(const struct rho_passive *passive,

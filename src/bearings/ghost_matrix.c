@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/detail/ghost_matrix.h"
 
-#include "rhotrack/types.h"
-
 static int are_bearings_valid(const float *bearings_rad, unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {

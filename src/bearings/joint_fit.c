@@ -115,12 +115,16 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
     rho_passive_rank_candidates(passive, order);
     set->num = 0;
-    for (unsigned i = 0; i < choice->count; i++) {
-        if (choice->is_in[order[i]] && set->num == RHO_MAX_PASSIVE_TRACKS) {
+    for (unsigned i = 0; i < 2u * choice->count; i++) { /* known tracks first */
+        const uint8_t at = order[i % choice->count];
+        if (!choice->is_in[at] || (passive->candidates[at].known > 0) != (i < choice->count)) {
+            continue;
+        }
+        if (set->num == RHO_MAX_PASSIVE_TRACKS) {
             passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
-        } else if (choice->is_in[order[i]]) {
-            set->tracks[set->num] = passive->candidates[order[i]];
-            set->candidate[set->num++] = order[i];
+        } else {
+            set->tracks[set->num] = passive->candidates[at];
+            set->candidate[set->num++] = at;
         }
     }
     fit_set(search, set);

@@ -9,28 +9,28 @@
 #include "passive_search.h"
 #include "policy.h"
 
-/* Whether a challenge may take the bearing from its owner; owners that are not known are gone. */
-static int is_in_play(const struct rho_passive_search *search, struct rho_batch_owner *owner)
+/* Whether nobody has the bearing, or one whom a challenge may take it from. */
+static int is_in_play(const struct rho_passive_search *search, uint32_t track_id)
 {
     for (uint32_t i = 0; i < search->num_known; i++) {
-        if (search->known[i].track_id == owner->track_id) {
+        if (search->known[i].track_id == track_id) {
             return !search->known[i].is_safe;
         }
     }
-    owner->track_id = search->is_challenge ? 0 : owner->track_id;
-    return owner->track_id == 0;
+    return track_id == 0;
 }
 
 void rho_passive_block_bearings(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    struct rho_batch *batch = &passive->batch;
+    const struct rho_batch *batch = &passive->batch;
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
-                passive->is_claimed[k][s][i] = is_in_play(search, &batch->bearings[k][s][i].owner)
-                                                   ? RHO_PASSIVE_FREE
-                                                   : RHO_PASSIVE_BLOCKED;
+                passive->is_claimed[k][s][i] =
+                    is_in_play(search, batch->bearings[k][s][i].owner.track_id)
+                        ? RHO_PASSIVE_FREE
+                        : RHO_PASSIVE_BLOCKED;
             }
         }
     }

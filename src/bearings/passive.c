@@ -93,7 +93,7 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
             if (place > 0 && place <= passive->batch.num_bearings[k][s]) {
                 struct rho_batch_bearing *bearing = &passive->batch.bearings[k][s][place - 1u];
                 const float fit_nat = 0.5f * (RHO_LOG_TWO_PI + track->chi2 / (float)track->hits);
-                given += bearing->owner.track_id == 0;
+                given += (uint32_t)rho_batch_is_unclaimed(bearing);
                 bearing->owner =
                     (struct rho_batch_owner){track_id, -rho_log(bearing->sigma_rad) - fit_nat};
             }
@@ -109,11 +109,24 @@ static void find_candidates(struct rho_passive_search *search)
     rho_passive_fit_pairs(search);
 }
 
-static enum rho_status search_batch(struct rho_passive *passive, struct rho_passive_known *known,
-                                    uint32_t num_known, int is_challenge)
+enum rho_status rho_passive_challenge(struct rho_passive *passive, struct rho_passive_known *known,
+                                      uint32_t num_known)
 {
-    struct rho_passive_search search = {
-        .passive = passive, .known = known, .num_known = num_known, .is_challenge = is_challenge};
+    uint32_t num_challenged = 0;
+    if (!passive || (num_known > 0 && !known)) {
+        return RHO_ERROR_NULL;
+    }
+    if (passive->magic != PASSIVE_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    for (uint32_t i = 0; i < num_known; i++) {
+        known[i].is_beaten = 0;
+        num_challenged += !known[i].is_safe;
+    }
+    if (num_challenged > RHO_MAX_PASSIVE_TRACKS || num_known >= UINT16_MAX) {
+        return RHO_ERROR_CAPACITY;
+    }
+    struct rho_passive_search search = {.passive = passive, .known = known, .num_known = num_known};
     memset(&passive->work, 0, sizeof passive->work);
     passive->num_tracks = passive->num_candidates = 0;
     passive->start_mnat = 0;
@@ -144,30 +157,7 @@ static enum rho_status search_batch(struct rho_passive *passive, struct rho_pass
 
 enum rho_status rho_passive_search(struct rho_passive *passive)
 {
-    if (!passive) {
-        return RHO_ERROR_NULL;
-    }
-    return passive->magic == PASSIVE_MAGIC ? search_batch(passive, 0, 0, 0) : RHO_ERROR_STATE;
-}
-
-enum rho_status rho_passive_challenge(struct rho_passive *passive, struct rho_passive_known *known,
-                                      uint32_t num_known)
-{
-    uint32_t num_rivals = 0;
-    if (!passive || (num_known > 0 && !known)) {
-        return RHO_ERROR_NULL;
-    }
-    if (passive->magic != PASSIVE_MAGIC) {
-        return RHO_ERROR_STATE;
-    }
-    for (uint32_t i = 0; i < num_known; i++) {
-        known[i].is_beaten = 0;
-        num_rivals += !known[i].is_safe;
-    }
-    if (num_rivals > RHO_MAX_PASSIVE_TRACKS) {
-        return RHO_ERROR_CAPACITY;
-    }
-    return search_batch(passive, known, num_known, 1);
+    return rho_passive_challenge(passive, 0, 0);
 }
 
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)

@@ -53,22 +53,24 @@ static int is_at_place_of(const struct rho_passive_look *look, const struct rho_
 }
 
 /*
- * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and
- * at least one, must have a bearing towards the crossing, from places of their own.
+ * In the first pass, with three sensors or more: all but one of those besides the pair that looked,
+ * and at least one, must have a bearing towards the crossing, from places of their own.
  */
 static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
                         const struct rho_passive_point *point)
 {
-    unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
-    if (num_sensors < 3 || search->is_second) {
-        return 1;
-    }
+    const struct rho_batch *batch = &search->passive->batch;
     const struct rho_passive_look *at = search->at[point->scan];
-    for (unsigned s = 0; s < num_sensors; s++) {
-        support += !is_at_place_of(&at[s], &at[pair->a]) && !is_at_place_of(&at[s], &at[pair->b]) &&
-                   has_bearing_towards(search, s, point);
+    unsigned others = 0, support = 0;
+    for (unsigned s = 0; s < batch->num_sensors && !search->is_second; s++) {
+        if (batch->was_seen[point->scan][s] && !is_at_place_of(&at[s], &at[pair->a]) &&
+            !is_at_place_of(&at[s], &at[pair->b])) {
+            others++;
+            support += (unsigned)has_bearing_towards(search, s, point);
+        }
     }
-    return support >= (num_sensors > 4 ? num_sensors - 3u : 1u);
+    return batch->num_sensors < 3 || search->is_second ||
+           support >= (others > 2 ? others - 1u : 1u);
 }
 
 /*

@@ -37,7 +37,6 @@ struct rho_passive_search {
     struct rho_passive *passive;
     struct rho_passive_known *known; /* the tracks that are challenged, and safe ones */
     uint32_t num_known;
-    int is_challenge;
     float middle_x_m, middle_y_m; /* centroid of the places of all looks */
     float half_s;                 /* half the time from the first row to the newest frame */
     struct rho_passive_look at[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
@@ -177,10 +176,10 @@ void rho_passive_rank_candidates(const struct rho_passive *passive,
                                  uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
 /*
  * Scores a fitted state, and adds it to the candidates if it passes the tests of a track and has no
- * better duplicate. Returns whether it passes the tests.
+ * better duplicate.
  */
-int rho_passive_offer_if_track(struct rho_passive_search *search,
-                               const float state_m[RHO_PASSIVE_STATES]);
+void rho_passive_offer_if_track(struct rho_passive_search *search,
+                                const float state_m[RHO_PASSIVE_STATES]);
 /* Number of bearings that two candidates both claim. */
 unsigned rho_passive_count_shared(const struct rho_passive_search *search,
                                   const struct rho_passive_candidate *a,

@@ -55,7 +55,9 @@ static int is_sensor_usable(const struct rho_batch *batch, const struct rho_fram
         apart_us(frame->time_us, scan->time_us) > RHO_LIMIT_OFFSET_US) {
         return 0;
     }
-    const float n = rho_larger(4.0f, (float)batch->num_sensors);
+    const unsigned num =
+        frame->num_scans > batch->num_sensors ? frame->num_scans : batch->num_sensors;
+    const float n = rho_larger(4.0f, (float)num);
     const float apart_max_m = batch->apart_max_m * 0.5f * n / (n - 2.0f);
     for (unsigned i = 0; i < batch->num_sensors; i++) {
         const struct rho_batch_sensor *other = &batch->sensors[i];
@@ -156,7 +158,7 @@ static int joins_newest_row(const struct rho_batch *batch, const struct rho_fram
 static void count_left(struct rho_batch *batch, unsigned scan, unsigned sensor)
 {
     for (unsigned i = 0; i < batch->num_bearings[scan][sensor]; i++) {
-        batch->num_left += batch->bearings[scan][sensor][i].owner.track_id == 0;
+        batch->num_left += (uint32_t)rho_batch_is_unclaimed(&batch->bearings[scan][sensor][i]);
     }
 }
 

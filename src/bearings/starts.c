@@ -141,7 +141,7 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
         best->agreement = 0.0f;
         if (!is_found(passive, a, b) && rho_passive_connect_crossings(search, a, b, state_m)) {
             rho_passive_fit_nearest(search, state_m);
-            (void)rho_passive_offer_if_track(search, state_m);
+            rho_passive_offer_if_track(search, state_m);
             fits++;
         }
     }

@@ -6,7 +6,6 @@
 #include "accumulator_search.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 enum rho_status rho_accumulator_count_cells(const struct rho_accumulator_config *config,
                                             uint16_t *theta_cells, uint16_t *rho_cells)

@@ -2,8 +2,6 @@
 /* accumulator_peaks: a heap of the best peaks, and suppression of peaks near a better one. */
 #include "rhotrack/detail/accumulator.h"
 
-#include "rhotrack/types.h"
-
 /* Order of peaks: more votes, then the lower theta cell, then the lower rho cell. */
 static int is_better_peak(const struct rho_accumulator_peak *a,
                           const struct rho_accumulator_peak *b)

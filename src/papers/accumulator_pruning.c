@@ -17,7 +17,6 @@
 #include "accumulator_search.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 #define LEVELS 5u /* of parts within the longest interval */
 #define INTERVAL_ROWS (PARTS * PARTS * PARTS * PARTS * PARTS)

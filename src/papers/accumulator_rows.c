@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "accumulator_search.h"
-#include "rhotrack/types.h"
 
 #define BLOCK 64 /* cells of a row that are tested together; RHO_ACCUMULATOR_PADDING fits */
 

@@ -6,7 +6,6 @@
 
 #include "accumulator_search.h"
 #include "policy.h"
-#include "rhotrack/types.h"
 
 enum { ACCUMULATOR_MAGIC = 0x41434355 }; /* "ACCU" in ASCII */
 

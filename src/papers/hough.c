@@ -4,7 +4,6 @@
 
 #include "hough_search.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 enum { HOUGH_MAGIC = 0x434c4153 }; /* "CLAS" in ASCII */
 

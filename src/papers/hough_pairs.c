@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 int rho_hough_uses_kernels(const struct rho_hough *hough)
 {

@@ -3,7 +3,6 @@
 #include "hough_search.h"
 
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 /* The cell whose voters are wanted, and the range of lines that vote for it. */
 struct cell_query {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 static uint32_t cell_key(int32_t row, int32_t column)
 {

@@ -6,7 +6,6 @@
 
 #include "passive_paper_search.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 void rho_passive_paper_config_default(struct rho_passive_paper_config *config)
 {

@@ -8,7 +8,6 @@
 #include "passive_paper_search.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 struct cell {
     int row, column;

@@ -4,7 +4,6 @@
  * votes. They are computed again from the batch, which is unchanged until the next frame.
  */
 #include "passive_paper_search.h"
-#include "rhotrack/types.h"
 
 static int is_pair_of_search(const struct rho_passive_paper *paper,
                              const struct rho_passive_paper_pair *pair)

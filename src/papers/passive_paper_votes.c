@@ -5,7 +5,6 @@
 #include "passive_paper_search.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 void rho_passive_paper_list_sensors(const struct rho_batch *batch,
                                     struct rho_passive_paper_search *search)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_initiation: initiation from a frame of bearings. Unclaimed bearings go into the batch of
- * passive initiation, ghosts among them are marked, and a full batch starts tracks.
+ * bearing_initiation: bearings of a frame go into the batch of passive initiation, ghosts among them
+ * are marked, and its best set of tracks is started, in place of tracks that it beats.
  */
 #include <string.h>
 
@@ -103,20 +103,21 @@ struct owners_list {
 };
 
 /* What a plot or a person vouches for is safe, and what exceeds the search's room. */
-static void add_owner(const struct step *step, struct owners_list *list, uint32_t track_id)
+static void add_owner(const struct step *step, struct owners_list *list, uint32_t *track_id)
 {
-    const unsigned row = find_track(step->tracker, track_id);
     for (unsigned i = 0; i < list->num; i++) {
-        if (list->known[i].track_id == track_id) {
+        if (list->known[i].track_id == *track_id) {
             return;
         }
     }
+    const unsigned row = *track_id != 0 ? find_track(step->tracker, *track_id) : RHO_MAX_TRACKS;
+    *track_id = row < RHO_MAX_TRACKS ? *track_id : 0; /* of a track that has ended: nobody's */
     if (row < RHO_MAX_TRACKS && list->num < 2 * RHO_MAX_PASSIVE_TRACKS) {
         const struct rho_track *track = &step->tracker->tracks[row];
         const float *state = track->kalman.state;
         const float dt_s = rho_seconds_between(track->time_us, step->look.time_us);
         struct rho_passive_known *known = &list->known[list->num++];
-        *known = (struct rho_passive_known){.track_id = track_id,
+        *known = (struct rho_passive_known){.track_id = *track_id,
                                             .x_m = state[0] + dt_s * state[3],
                                             .y_m = state[1] + dt_s * state[4],
                                             .vx_mps = state[3],
@@ -130,15 +131,24 @@ static void add_owner(const struct step *step, struct owners_list *list, uint32_
 
 static void list_owners(const struct step *step, struct owners_list *list)
 {
-    const struct rho_batch *batch = &step->passive->batch;
+    struct rho_batch *batch = &step->passive->batch;
     list->num = list->num_challenged = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
-                if (batch->bearings[k][s][i].owner.track_id != 0) {
-                    add_owner(step, list, batch->bearings[k][s][i].owner.track_id);
-                }
+                add_owner(step, list, &batch->bearings[k][s][i].owner.track_id);
             }
+        }
+    }
+}
+
+/* Takes from a track begun anew the bearings that it had. */
+static void release_bearings(struct rho_batch *batch, uint32_t track_id)
+{
+    struct rho_batch_bearing *bearings = &batch->bearings[0][0][0];
+    for (unsigned i = 0; i < sizeof batch->bearings / sizeof *bearings; i++) {
+        if (bearings[i].owner.track_id == track_id) {
+            bearings[i].owner.track_id = 0;
         }
     }
 }
@@ -168,6 +178,7 @@ static uint32_t end_beaten_tracks(struct step *step, struct owners_list *list,
     unsigned most = 0;
     for (unsigned i = 0; i < list->num; i++) {
         struct rho_passive_known *known = &list->known[i];
+        known->is_beaten &= find_track(step->tracker, known->track_id) < RHO_MAX_TRACKS;
         const unsigned shared =
             known->is_beaten ? count_shared(&step->passive->batch, found, known->track_id) : 0;
         const uint32_t gone_id = shared > most ? heir_id : known->track_id;
@@ -237,6 +248,9 @@ static void start_found_track(struct step *step, struct owners_list *list,
     const uint32_t heir_id = end_beaten_tracks(step, list, found);
     const uint32_t track_id = heir_id != 0 ? heir_id : tracker->next_track_id;
     if (admit_found_track(step, heir_id, &estimate, sensor_id, found)) {
+        if (heir_id != 0) {
+            release_bearings(&step->passive->batch, heir_id);
+        }
         const uint32_t given = rho_passive_give(step->passive, found, track_id);
         tracker->counters.plots_initiated = rho_count(tracker->counters.plots_initiated, given);
     }

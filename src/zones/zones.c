@@ -6,7 +6,6 @@
 
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/types.h"
 
 enum { ZONES_MAGIC = 0x5a4f4e45 };
 

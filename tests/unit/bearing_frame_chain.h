@@ -73,7 +73,9 @@ static inline uint32_t count_bearings_of_track_in_batch(uint32_t track_id)
     for (unsigned k = 0; k < passive.batch.num_scans; k++) {
         for (unsigned s = 0; s < passive.batch.num_sensors; s++) {
             for (unsigned i = 0; i < passive.batch.num_bearings[k][s]; i++) {
-                count += passive.batch.bearings[k][s][i].owner.track_id == track_id;
+                const struct rho_batch_bearing *bearing = &passive.batch.bearings[k][s][i];
+                count += track_id == 0 ? rho_batch_is_unclaimed(bearing)
+                                       : bearing->owner.track_id == track_id;
             }
         }
     }

@@ -21,7 +21,7 @@
 
 RHO_BEGIN_C
 
-/* fewest scans that are searched for tracks: two tell a velocity, and two more test it */
+/* fewest rows that are searched for tracks: two tell a velocity, and another one tests it */
 #define RHO_BATCH_SCANS_MIN 3u
 
 struct rho_batch_sensor {
@@ -35,7 +35,7 @@ struct rho_batch_look {
     float x_m, y_m;
 };
 
-/* The track that a bearing was taken for, and ln of its density, 1/rad, where it was expected. */
+/* The track that has a bearing, and ln of its density, 1/rad, where the last one expected it. */
 struct rho_batch_owner {
     uint32_t track_id; /* 0: no track's */
     float density_nat;
@@ -48,13 +48,20 @@ struct rho_batch_bearing {
     struct rho_batch_owner owner;
 };
 
+/* 1: no track has taken the bearing so far. */
+static inline int rho_batch_is_unclaimed(const struct rho_batch_bearing *bearing)
+{
+    return bearing->owner.track_id == 0 &&
+           !(bearing->owner.density_nat < 0.0f || bearing->owner.density_nat > 0.0f);
+}
+
 struct rho_batch {
     uint16_t scans_max; /* capacity in rows: N */
     uint16_t num_sensors, num_scans;
     uint8_t is_whole;  /* 1: the newest row has a look of each sensor, or a frame of several */
     uint8_t is_due;    /* 1: the last push made a row whole, or ended one that was not */
     float apart_max_m; /* largest distance of two sensors that is accepted */
-    uint32_t num_left; /* number of bearings without an owner that the last push dropped */
+    uint32_t num_left; /* number of bearings of no track that the last push dropped */
     int64_t newest_us; /* time of the newest frame */
     struct rho_batch_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
     /* times of the first looks of the rows, oldest first */

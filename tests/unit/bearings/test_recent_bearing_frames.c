@@ -753,7 +753,8 @@ static void push_random_frame(unsigned rows_max)
     const struct rho_batch_owner *used = uniform(0.0, 1.0) < 0.5 ? owners : NULL;
     for (unsigned i = 0; i < NUM(owners); i++) {
         owners[i] = (struct rho_batch_owner){
-            .track_id = given.fates[i] == RHO_FATE_CLAIMED ? 1 + i : 0, .density_nat = 1.0f};
+            .track_id = given.fates[i] == RHO_FATE_CLAIMED ? 1 + i : 0,
+            .density_nat = given.fates[i] == RHO_FATE_CLAIMED ? 1.0f : 0.0f};
     }
     memcpy(fates, given.fates, sizeof fates);
     unsigned num_left = plain_push_and_count_bearings_left(rows_max, fates, used);
