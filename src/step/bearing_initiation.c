@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_initiation: bearings of a frame go into the batch of passive initiation, ghosts among them
- * are marked, and its best set of tracks is started, in place of tracks that it beats.
+ * bearing_initiation: bearings of a frame go into the batch of passive initiation, ghosts among
+ * them are marked, and its best set of tracks is started, in place of tracks that it beats.
  */
 #include <string.h>
 
