@@ -307,7 +307,7 @@
 #define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Passive sensors, 2 .. 8; frames in a batch, 4 .. 16. RAM: 17 bytes a bearing, sensor, frame. */
+/* Passive sensors, 2 .. 8; rows of a batch, 4 .. 16. RAM: 25 bytes a bearing, sensor and row. */
 #ifndef RHO_MAX_PASSIVE_SENSORS
 #define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 8)
 #endif
@@ -315,7 +315,7 @@
 #define RHO_MAX_PASSIVE_SCANS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Crossings that vote; the least certain give way. RAM: 24 bytes a crossing. 16 .. 65535. */
+/* Crossings of bearings; the least certain give way. RAM: 40 bytes each. 16 .. 65535. */
 #ifndef RHO_MAX_PASSIVE_POINTS
 #define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 1024)
 #endif

@@ -106,7 +106,7 @@ struct rho_hough_points rho_paper_starts_points(const struct rho_paper_starts *s
  * Starts tracks from a frame of bearings: unclaimed bearings go into the paper's batch, and each
  * line that all pairs of sensors confirm starts a track. The track's covariance is that of the fit
  * through the line's crossings, by their scatter. Errors: NULL, STATE, and those of
- * rho_passive_paper_push. Cost: rho_passive_paper_search, once the batch is full. Stack: 4 KB.
+ * rho_passive_paper_push. Cost: rho_passive_paper_search of a full batch. Stack: 4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper,
                                                       struct rho_tracker *tracker,

@@ -71,7 +71,7 @@ struct rho_passive_work {
     uint32_t points_dropped; /* crossings beyond RHO_MAX_PASSIVE_POINTS, the least certain ones */
     uint32_t hypotheses;     /* pairs of crossings whose agreement with the bearings was computed */
     uint32_t fits;           /* fits of a state to bearings */
-    uint32_t candidates_dropped; /* candidates beyond RHO_MAX_PASSIVE_CANDIDATES */
+    uint32_t candidates_dropped; /* beyond RHO_MAX_PASSIVE_CANDIDATES, or _TRACKS where chosen */
 };
 
 /*
@@ -128,9 +128,9 @@ struct rho_passive {
     uint16_t num_tracks;
     uint16_t num_candidates;
     /*
-     * score that a new track must reach: false tracks reach it at the rate false_tracks_per_hour.
-     * It is high, as the four bearings of two crossings always fit a state, and there are many
-     * pairs of crossings (src/DESIGN.md)
+     * score that a new track must reach: false tracks reach it at the rate false_tracks_per_hour at
+     * most, as the mean likelihood ratio of a target anywhere is 1 where there is none
+     * (src/DESIGN.md)
      */
     int32_t start_mnat;
     uint32_t num_points;

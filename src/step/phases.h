@@ -46,7 +46,7 @@ void rho_step_age(struct step *step);
 
 /* initiate.c: tracks start from unclaimed plots; the clutter map and counts are updated */
 void rho_step_initiate(struct step *step);
-/* bearing_initiation.c: tracks start from unclaimed bearings */
+/* bearing_initiation.c: tracks start from bearings, and give way to better ones */
 void rho_step_initiate_bearings(struct step *step, const struct frame_owners *owners);
 
 /* settle.c: brings the tracks to the time that the report has */
