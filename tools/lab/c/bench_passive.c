@@ -166,8 +166,14 @@ static double fastest_push_us(struct rho_passive *passive, const struct recordin
     for (int round = 0; round < BENCH_ROUNDS; round++) {
         int64_t start_us = monotonic_clock_us();
         for (unsigned i = 0; i < PUSHES; i++) {
+            struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
             struct rho_frame frame = recording->frames[i % recording->num_frames];
+            memcpy(scans, frame.scans, frame.num_scans * sizeof scans[0]);
+            frame.scans = scans;
             frame.time_us = time_us += SCAN_US;
+            for (uint32_t k = 0; k < frame.num_scans; k++) {
+                scans[k].time_us = time_us;
+            }
             push_frame(passive, &frame);
         }
         best_us = fmin(best_us, (double)(monotonic_clock_us() - start_us) / PUSHES);

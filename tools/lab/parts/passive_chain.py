@@ -17,7 +17,7 @@ NEAR_M, NEAR_SIGMAS = 1000, 4  # a track this near to a target is the target's
 RMS_RATIO_MAX = 1.08
 SETTINGS = {"v_min_mps": 150, "v_max_mps": 250, "accel_max_mps2": 5, "sigma_rad": math.radians(0.1)}
 DENSITY_M2PS3 = (0.5 * SETTINGS["accel_max_mps2"])**2  # as the tracker's: half of it for 1 s
-FIRST_FRAMES = 8  # that open the filter
+FIRST_FRAMES = 3  # that open the filter, as the tracks
 
 
 def chained(sensors, targets, pd=0.9, false_mean=1, frames=24):
