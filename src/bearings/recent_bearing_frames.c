@@ -52,7 +52,7 @@ static int is_sensor_usable(const struct rho_batch *batch, const struct rho_fram
 {
     const struct rho_bearing_scan *scan = &frame->scans[scan_number];
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
-        apart_us(frame->time_us, scan->time_us) > RHO_LIMIT_OFFSET_US) {
+        (scan->time_us != 0 && apart_us(frame->time_us, scan->time_us) > RHO_LIMIT_OFFSET_US)) {
         return 0;
     }
     const unsigned num =
@@ -166,12 +166,12 @@ static void count_left(struct rho_batch *batch, unsigned scan, unsigned sensor)
 static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *scan, uint8_t *fates,
                        const struct rho_batch_owner *owners)
 {
-    static const struct rho_batch_owner nobody = {.track_id = 0};
     const unsigned k = batch->num_scans - 1u, s = find_sensor(batch, scan->sensor_id);
     batch->num_sensors = (uint16_t)(batch->num_sensors + (s == batch->num_sensors));
     batch->sensors[s] = (struct rho_batch_sensor){scan->sensor_id, scan->x_m, scan->y_m};
+    const int64_t time_us = scan->time_us != 0 ? scan->time_us : batch->newest_us;
     batch->looks[k][s] =
-        (struct rho_batch_look){(int32_t)(scan->time_us - batch->time_us[k]), scan->x_m, scan->y_m};
+        (struct rho_batch_look){(int32_t)(time_us - batch->time_us[k]), scan->x_m, scan->y_m};
     count_left(batch, k, s);
     batch->num_bearings[k][s] = 0;
     batch->was_seen[k][s] = 1;
@@ -188,12 +188,12 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
         } else if (*count == RHO_MAX_BEARINGS) {
             fates[i] = RHO_FATE_NO_ROOM;
         } else {
-            batch->bearings[k][s][(*count)++] =
-                (struct rho_batch_bearing){.cosine = rho_cos(from->bearing_rad),
-                                           .sine = rho_sin(from->bearing_rad),
-                                           .bearing_rad = from->bearing_rad,
-                                           .sigma_rad = from->sigma_rad,
-                                           .owner = owners ? owners[i] : nobody};
+            batch->bearings[k][s][(*count)++] = (struct rho_batch_bearing){
+                .cosine = rho_cos(from->bearing_rad),
+                .sine = rho_sin(from->bearing_rad),
+                .bearing_rad = from->bearing_rad,
+                .sigma_rad = from->sigma_rad,
+                .owner = owners ? owners[i] : (struct rho_batch_owner){0, 0.0f}};
         }
     }
 }
@@ -240,12 +240,12 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     if (!joins) {
         begin_row(batch, frame->time_us);
     }
+    batch->newest_us = frame->time_us;
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         store_scan(batch, &frame->scans[i], fates, owners);
         fates += frame->scans[i].num_bearings;
         owners = owners ? owners + frame->scans[i].num_bearings : 0;
     }
-    batch->newest_us = frame->time_us;
     batch->is_whole = (joins && batch->is_whole) || frame->num_scans > 1 ||
                       has_looks_of_all(batch, batch->num_scans - 1u);
     batch->is_due |= batch->is_whole && frame->num_scans > 0;

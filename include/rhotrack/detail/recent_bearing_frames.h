@@ -94,7 +94,7 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
 
 /*
  * Adds a frame of one look or more to the batch; a full batch drops its oldest row.
- *   frame  the time of a scan is taken for all its bearings; their offsets are ignored
+ *   frame  a scan's time, 0: the frame's, is that of its bearings; their offsets are ignored
  *   fates  one for each bearing, in the order of the frame's scans; bearings with HELD are stored,
  *          or get INVALID (rho_bearing_is_valid) or NO_ROOM (beyond RHO_MAX_BEARINGS)
  *   owners NULL, or the tracks of the bearings in the same order: those with CLAIMED are stored too

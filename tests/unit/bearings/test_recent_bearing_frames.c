@@ -557,6 +557,18 @@ static void a_row_with_a_frame_of_several_sensors_stays_whole(void **state)
 }
 
 /* Times as far apart as they may be are no interval, and no row is that long. */
+/* A caller who states the frame's time alone means it for all its scans. */
+static void a_scan_without_a_time_is_of_its_frames(void **state)
+{
+    (void)state;
+    init_batch(4);
+    push_single(0, 100000000);
+    given.scans[0].time_us = 0;
+    given.frame.time_us = 110000000;
+    assert_int_equal(rho_batch_push(&batch, &given.frame, given.fates, NULL), RHO_OK);
+    assert_int_equal(batch.time_us[1] + batch.looks[1][0].offset_us, 110000000);
+}
+
 static void the_first_and_last_possible_times_are_different_rows(void **state)
 {
     (void)state;
@@ -707,8 +719,10 @@ static unsigned plain_push_and_count_bearings_left(unsigned rows_max, uint8_t *f
         num_known += s == num_known;
         known_id[s] = given.scans[i].sensor_id;
         known_x_m[s] = given.scans[i].x_m;
-        *look = (struct plain_look){
-            .was_seen = 1, .time_us = given.scans[i].time_us, .x_m = given.scans[i].x_m};
+        *look = (struct plain_look){.was_seen = 1,
+                                    .time_us = given.scans[i].time_us ? given.scans[i].time_us
+                                                                      : given.frame.time_us,
+                                    .x_m = given.scans[i].x_m};
         for (unsigned j = 0; j < given.scans[i].num_bearings; j++, place++) {
             fates[place] = plain_add_bearing(look, &given.scans[i].bearings[j], fates[place],
                                              owners ? &owners[place] : NULL);
@@ -832,6 +846,7 @@ int main(void)
         cmocka_unit_test(a_frame_must_be_newer_than_the_newest),
         cmocka_unit_test(sensors_too_far_or_at_no_place_are_refused),
         cmocka_unit_test(new_sensors_of_one_frame_must_be_at_allowed_distances),
+        cmocka_unit_test(a_scan_without_a_time_is_of_its_frames),
         cmocka_unit_test(scans_too_long_before_or_after_their_frame_are_refused),
         cmocka_unit_test(sensors_may_move_and_stand_together),
         cmocka_unit_test(sensors_beyond_the_capacity_are_refused),

@@ -17,7 +17,7 @@ NEAR_M, NEAR_SIGMAS = 1000, 4  # a track this near to a target is the target's
 RMS_RATIO_MAX = 1.08
 SETTINGS = {"v_min_mps": 150, "v_max_mps": 250, "accel_max_mps2": 5, "sigma_rad": math.radians(0.1)}
 DENSITY_M2PS3 = (0.5 * SETTINGS["accel_max_mps2"])**2  # as the tracker's: half of it for 1 s
-FIRST_FRAMES = 3  # that open the filter, as the tracks
+FIRST_FRAMES = 8  # that open the filter
 
 
 def chained(sensors, targets, pd=0.9, false_mean=1, frames=24):
@@ -37,7 +37,8 @@ CASES = {  # bars: tracked at the end, false tracks a run
 
 def follow(case, scene):
     """Targets tracked at the last frame and found at all, sum of the frames of confirmation, false
-    tracks, pairs of a target and its track, their squared errors, the filter's, us a frame."""
+    tracks, pairs of a target and its track once the filter is open, their squared errors, the
+    filter's, us a frame."""
     scans, tracker = rhotrack.Scans(scene.frames()), rhotrack.Tracker(**SETTINGS)
     start_s = time.thread_time()
     tracks = tracker.run(scans)
@@ -45,7 +46,7 @@ def follow(case, scene):
     tracks = tracks[tracks["status"] != "tentative"]
     truth, filtered = scene.truth(scene.times_s), filter_places(scene)
     confirmed_at = np.zeros(scene.of.targets, int)
-    tracked, owners, squares_m2 = 0, [], np.zeros(2)
+    tracked, owners, compared, squares_m2 = 0, [], 0, np.zeros(2)
     for k, time_s in enumerate(scene.times_s):
         now = tracks[np.abs(tracks["t_s"] - time_s) < 1e-3]
         near_m = np.maximum(NEAR_M, NEAR_SIGMAS * now["sigma_m"])
@@ -56,10 +57,12 @@ def follow(case, scene):
                 owners.append(now["track_id"][off_m.argmin()])
                 confirmed_at[target] = confirmed_at[target] or k + 1
                 tracked += k + 1 == scene.of.frames
-                squares_m2 += off_m.min()**2, ((filtered[k, target] - place_m)**2).sum()
+                if k + 1 >= FIRST_FRAMES:  # the filter is open
+                    compared += 1
+                    squares_m2 += off_m.min()**2, ((filtered[k, target] - place_m)**2).sum()
     false = sum(2 * owners.count(track_id) < frames
                 for track_id, frames in zip(*np.unique(tracks["track_id"], return_counts=True)))
-    return (tracked, (confirmed_at > 0).sum(), confirmed_at.sum(), false, len(owners), *squares_m2,
+    return (tracked, (confirmed_at > 0).sum(), confirmed_at.sum(), false, compared, *squares_m2,
             frame_us)
 
 
