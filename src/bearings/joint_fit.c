@@ -116,7 +116,7 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
     rho_passive_rank_candidates(passive, order);
     set->num = 0;
     for (unsigned i = 0; i < 2u * choice->count; i++) { /* known tracks first */
-        const uint8_t at = order[i % choice->count];
+        const uint8_t at = order[i < choice->count ? i : i - choice->count];
         if (!choice->is_in[at] || (passive->candidates[at].known > 0) != (i < choice->count)) {
             continue;
         }
