@@ -206,14 +206,14 @@ class Passive:
         self._search = ffi.new(f"struct {name} *")
 
     def find(self, frames: Any) -> np.ndarray:
-        """Searches the last frames, as many as a batch holds."""
+        """Searches the last rows of looks, as many as a batch holds."""
         scans = as_scans(frames, self.settings)
         held = [scans.handle.list[i] for i in range(len(scans))]
         if not all(one.is_frame for one in held):
             raise Error("bearing_rad: the field is missing in a frame")
         search = self._search
         self._call("init", search, ffi.sizeof(search[0]), self.config)
-        for one in held[-self.config.scans:]:
+        for one in held:
             count = sum(one.frame.scans[i].num_bearings for i in range(one.frame.num_scans))
             fates = ffi.new("uint8_t[]", [lib.RHO_FATE_HELD] * count)
             self._call("push", search, ffi.addressof(one.frame), fates)
@@ -298,8 +298,9 @@ class Passive:
                  for one in ids]
         places = [(float(frame["sensor_x_m"][k]), float(frame["sensor_y_m"][k]))
                   for k in (np.flatnonzero(frame["sensor_id"] == one)[0] for one in ids)]
-        rule = {lib.RHO_GHOST_SAFE: "safe", lib.RHO_GHOST_LITERAL: "literal",
-                lib.RHO_GHOST_NO_RULE: "none"}[self.config.rule]
+        rule = self.settings["prune"] if self.method == "passive" else {
+            lib.RHO_GHOST_SAFE: "safe", lib.RHO_GHOST_LITERAL: "literal",
+            lib.RHO_GHOST_NO_RULE: "none"}[self.config.rule]
         return {(ids[a], ids[b]): ghosts(looks[a]["bearing_rad"], looks[b]["bearing_rad"],
                                          places[a], places[b], self.config.range_max_m, rule)
                 for a in range(len(ids)) for b in range(a + 1, len(ids))}
