@@ -92,11 +92,11 @@ static int take_step(const struct rho_passive_search *search,
 void rho_passive_fit_nearest(const struct rho_passive_search *search, float state_m[N])
 {
     static const float gates[4] = {8.0f, 5.0f, BEARING_GATE_SIGMAS, BEARING_GATE_SIGMAS};
-    int goes_on = 1;
-    for (unsigned step = 0; step < 4 && goes_on; step++) {
+    const struct rho_passive_candidate *nobody = search->passive->candidates; /* not read */
+    for (unsigned step = 0, goes_on = 1; step < 4 && goes_on; step++) {
         struct rho_passive_equations equations =
-            equations_of_bearings(search, state_m, gates[step], NULL);
-        goes_on = take_step(search, &equations, state_m);
+            equations_of_bearings(search, state_m, gates[step], nobody->claim);
+        goes_on = (unsigned)take_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
