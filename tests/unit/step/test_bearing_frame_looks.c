@@ -15,6 +15,15 @@ struct looks_figures {
     double nees;
 };
 
+static void fly_looks(int is_in_turn, unsigned k)
+{
+    if (is_in_turn) {
+        fly_sensors_in_turn(k, 10.0);
+    } else {
+        fly_frame(k, 10.0);
+    }
+}
+
 /*
  * Steps all frames, or their scans in turn. Expects one track of each target, which keeps its
  * number to the end.
@@ -24,11 +33,7 @@ static void fly_and_add_figures(int is_in_turn, struct looks_figures *figures)
     const unsigned targets = scene.targets;
     start_chain(5.0f);
     for (unsigned k = 0; k < FRAMES; k++) {
-        if (is_in_turn) {
-            fly_sensors_in_turn(k, 10.0);
-        } else {
-            fly_frame(k, 10.0);
-        }
+        fly_looks(is_in_turn, k);
         assert_true(report.num_tracks <= targets);
         figures->found_early += k == BATCH - 1 && report.num_tracks == targets;
     }
@@ -144,11 +149,7 @@ static void sensors_at_one_place_alone_start_no_track(void **state)
         }
         start_chain(5.0f);
         for (unsigned k = 0; k < FRAMES; k++) {
-            if (is_in_turn) {
-                fly_sensors_in_turn(k, 10.0);
-            } else {
-                fly_frame(k, 10.0);
-            }
+            fly_looks(is_in_turn, k);
         }
         assert_int_equal(tracker.counters.tracks_started, 0);
         assert_int_equal(tracker.counters.fates[RHO_FATE_GHOST], 0);
