@@ -108,8 +108,7 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
 {
     const struct rho_passive *passive = choice->search->passive;
     const struct rho_passive_candidate *target = &passive->candidates[which];
-    const struct rho_passive_equations known =
-        rho_passive_equations_of_claims(choice->search, target);
+    const struct rho_passive_equations known = rho_passive_equate_claims(choice->search, target);
     float least = SAME_TARGET_SHARE * (float)target->hits;
     for (unsigned i = 0; i < choice->count; i++) {
         if (i == which || (float)passive->shared[which][i] >= least ||

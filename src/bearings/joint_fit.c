@@ -83,7 +83,7 @@ static void fit_set(const struct rho_passive_search *search, struct rho_passive_
             }
             for (unsigned t = 0; t < set->num; t++) {
                 if (set->tracks[t].known == 0) {
-                    rho_passive_step_to_claims(search, &set->tracks[t]);
+                    (void)rho_passive_step_to_claims(search, &set->tracks[t]);
                 }
             }
         }

@@ -174,8 +174,9 @@ void rho_passive_find_crossings(struct rho_passive_search *search)
             for (unsigned b = a + 1u; b < batch->num_sensors; b++) {
                 struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
                 /* sensors at one place have no base */
-                if (rho_crossing_set_base(&pair.base, at[a].x_m, at[a].y_m, at[b].x_m, at[b].y_m) ==
-                    RHO_OK) {
+                if (batch->num_bearings[scan][a] > 0 && batch->num_bearings[scan][b] > 0 &&
+                    rho_crossing_set_base(&pair.base, at[a].x_m, at[a].y_m, at[b].x_m, at[b].y_m) ==
+                        RHO_OK) {
                     cross_pair(search, &pair);
                 }
             }

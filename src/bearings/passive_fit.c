@@ -35,31 +35,25 @@ static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas
     return rho_square(rho_passive_residual(nearest)) < rho_square(gate_sigmas);
 }
 
-/*
- * Normal equations of the nearest unclaimed bearings within the gate, or with gate 0 of the
- * claimed ones (claim); with weak priors of position and speed.
- */
-static struct rho_passive_equations
-equations_of_bearings(const struct rho_passive_search *search, const float state_m[N], float gate,
-                      const uint8_t (*claim)[RHO_MAX_PASSIVE_SENSORS])
+struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_search *search,
+                                                       const struct rho_passive_candidate *track)
 {
     const struct rho_batch *batch = &search->passive->batch;
     float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
     struct rho_passive_equations equations = {.b = {0}};
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_passive_match nearest =
-                gate > 0.0f ? rho_passive_match_nearest(search, k, s, state_m, 0)
-                            : rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
-            if (nearest.bearing >= 0 && (!(gate > 0.0f) || is_in_gate(&nearest, gate))) {
-                add_bearing_equation(search->at[k][s].step, &nearest, &equations);
+            struct rho_passive_match seen =
+                rho_passive_match_claimed(search, k, s, track->state_m, track->claim[k][s]);
+            if (seen.bearing >= 0) {
+                add_bearing_equation(search->at[k][s].step, &seen, &equations);
             }
         }
     }
     for (int i = 0; i < N; i++) {
         float weight = i < RHO_PASSIVE_DX ? 1.0f / rho_square(range_m) : 1.0f / rho_square(way_m);
         equations.a[RHO_AT(i, i)] += weight;
-        equations.b[i] -= i < RHO_PASSIVE_DX ? 0.0f : weight * state_m[i];
+        equations.b[i] -= i < RHO_PASSIVE_DX ? 0.0f : weight * track->state_m[i];
     }
     return equations;
 }
@@ -69,50 +63,59 @@ static float clipped(float v, float most)
     return v < most ? (v > -most ? v : -most) : most;
 }
 
-/*
- * Solves the normal equations and moves the state, each component by a limited step. Returns 0
- * where they are singular, and the state stays.
- */
-static int take_step(const struct rho_passive_search *search,
-                     struct rho_passive_equations *equations, float state_m[N])
+int rho_passive_step_to_claims(const struct rho_passive_search *search,
+                               struct rho_passive_candidate *track)
 {
+    struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
     float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
-    if (rho_linalg_cholesky(N, equations->a, factor) != RHO_OK) {
+    if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return 0;
     }
-    rho_linalg_forward(N, factor, equations->b);
-    rho_linalg_backward(N, factor, equations->b);
+    rho_linalg_forward(N, factor, equations.b);
+    rho_linalg_backward(N, factor, equations.b);
     for (int i = 0; i < N; i++) {
-        state_m[i] = clipped(state_m[i] + clipped(equations->b[i], STEP_MAX_RANGES * range_m),
-                             POSITION_MAX_RANGES * range_m);
+        track->state_m[i] =
+            clipped(track->state_m[i] + clipped(equations.b[i], STEP_MAX_RANGES * range_m),
+                    POSITION_MAX_RANGES * range_m);
     }
     return 1;
+}
+
+/* Claims the nearest bearing of each look within the gate; include_claimed 0: an unclaimed one. */
+static void claim_within(const struct rho_passive_search *search, float gate, int include_claimed,
+                         struct rho_passive_candidate *track)
+{
+    const struct rho_batch *batch = &search->passive->batch;
+    memset(track->claim, 0, sizeof track->claim);
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            struct rho_passive_match nearest =
+                rho_passive_match_nearest(search, k, s, track->state_m, include_claimed);
+            if (nearest.bearing >= 0 && is_in_gate(&nearest, gate)) {
+                track->claim[k][s] = (uint8_t)(nearest.bearing + 1);
+            }
+        }
+    }
+}
+
+void rho_passive_claim_nearest(const struct rho_passive_search *search,
+                               struct rho_passive_candidate *track)
+{
+    claim_within(search, BEARING_GATE_SIGMAS, 1, track);
 }
 
 void rho_passive_fit_nearest(const struct rho_passive_search *search, float state_m[N])
 {
     static const float gates[4] = {8.0f, 5.0f, BEARING_GATE_SIGMAS, BEARING_GATE_SIGMAS};
-    const struct rho_passive_candidate *nobody = search->passive->candidates; /* not read */
-    for (unsigned step = 0, goes_on = 1; step < 4 && goes_on; step++) {
-        struct rho_passive_equations equations =
-            equations_of_bearings(search, state_m, gates[step], nobody->claim);
-        goes_on = (unsigned)take_step(search, &equations, state_m);
+    struct rho_passive_candidate fitted;
+    int goes_on = 1;
+    memcpy(fitted.state_m, state_m, sizeof fitted.state_m);
+    for (unsigned step = 0; step < 4 && goes_on; step++) {
+        claim_within(search, gates[step], 0, &fitted);
+        goes_on = rho_passive_step_to_claims(search, &fitted);
     }
+    memcpy(state_m, fitted.state_m, sizeof fitted.state_m);
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
-}
-
-struct rho_passive_equations
-rho_passive_equations_of_claims(const struct rho_passive_search *search,
-                                const struct rho_passive_candidate *track)
-{
-    return equations_of_bearings(search, track->state_m, 0.0f, track->claim);
-}
-
-void rho_passive_step_to_claims(const struct rho_passive_search *search,
-                                struct rho_passive_candidate *track)
-{
-    struct rho_passive_equations equations = rho_passive_equations_of_claims(search, track);
-    (void)take_step(search, &equations, track->state_m);
 }
 
 int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned scan, unsigned sensor,
@@ -194,7 +197,7 @@ static float score_of_prior(const struct rho_passive_search *search,
 {
     const float place_m = 0.5f * search->passive->config.range_max_m;
     const float way_m = 0.5f * search->passive->config.v_max_mps * search->half_s;
-    const struct rho_passive_equations equations = rho_passive_equations_of_claims(search, track);
+    const struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
     float factor[RHO_TRIANGLE(N)], score_nat = 0.0f;
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return -1.0e6f; /* no covariance, no track */
@@ -235,22 +238,6 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
     return is_track(search, track, *chi2, out_of_view);
 }
 
-void rho_passive_claim_nearest(const struct rho_passive_search *search,
-                               struct rho_passive_candidate *track)
-{
-    const struct rho_batch *batch = &search->passive->batch;
-    memset(track->claim, 0, sizeof track->claim);
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_passive_match nearest =
-                rho_passive_match_nearest(search, k, s, track->state_m, 1);
-            if (nearest.bearing >= 0 && is_in_gate(&nearest, BEARING_GATE_SIGMAS)) {
-                track->claim[k][s] = (uint8_t)(nearest.bearing + 1);
-            }
-        }
-    }
-}
-
 float rho_passive_gain_nat(const struct rho_passive_search *search, const float state_m[N],
                            unsigned scan, unsigned sensor, unsigned claim)
 {
@@ -273,7 +260,7 @@ int rho_passive_estimate_track(const struct rho_passive_search *search,
                                struct rho_passive_track *track)
 {
     const float *state_m = from->state_m;
-    struct rho_passive_equations equations = rho_passive_equations_of_claims(search, from);
+    struct rho_passive_equations equations = rho_passive_equate_claims(search, from);
     float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return 0;

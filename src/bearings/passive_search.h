@@ -132,9 +132,12 @@ float rho_passive_agreement(const struct rho_passive_search *search,
 /* Fits a state to the nearest bearings: four Gauss-Newton steps, in gates of 8 to 3.5 sigmas. */
 void rho_passive_fit_nearest(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES]);
-/* Improves a track's state by one Gauss-Newton step towards the bearings that it claims. */
-void rho_passive_step_to_claims(const struct rho_passive_search *search,
-                                struct rho_passive_candidate *track);
+/*
+ * Improves a track's state by one Gauss-Newton step of limited size towards the bearings that it
+ * claims. Returns 0 where the normal equations are singular, and the state stays.
+ */
+int rho_passive_step_to_claims(const struct rho_passive_search *search,
+                               struct rho_passive_candidate *track);
 
 /* Claims for a track's state the nearest bearing of each look within 3.5 sigmas. */
 void rho_passive_claim_nearest(const struct rho_passive_search *search,
@@ -144,9 +147,8 @@ struct rho_passive_equations {
     float a[10], b[RHO_PASSIVE_STATES];
 };
 /* Those of the bearings that a candidate claims. */
-struct rho_passive_equations
-rho_passive_equations_of_claims(const struct rho_passive_search *search,
-                                const struct rho_passive_candidate *track);
+struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_search *search,
+                                                       const struct rho_passive_candidate *track);
 /* Squared distance of two states in sigmas. */
 float rho_passive_distance2(const struct rho_passive_equations *equations,
                             const float a_m[RHO_PASSIVE_STATES],

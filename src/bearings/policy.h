@@ -15,6 +15,17 @@
  * hidden. Twice: the time.
  */
 #define BEST_TRIED 12u
+/*
+ * Share of a candidate's bearings at which another is the same target for the margin. Half: targets
+ * side by side count as one. Twice: other fits of the target take its place, and margins vanish.
+ */
+#define SAME_TARGET_SHARE 0.7f
+/*
+ * Distance at which another candidate is where a target is: it makes the target no less certain.
+ * Half: the choice of bearings of targets side by side keeps both from starting. Twice: ghosts near
+ * a target count as it.
+ */
+#define SAME_TARGET_SIGMAS 5.0f
 
 /* recent_bearing_frames.c */
 
@@ -35,17 +46,6 @@
 
 /* candidate_list.c */
 
-/*
- * Share of a candidate's bearings at which another is the same target for the margin. Half: targets
- * side by side count as one. Twice: other fits of the target take its place, and margins vanish.
- */
-#define SAME_TARGET_SHARE 0.7f
-/*
- * Distance at which another candidate is where a target is: it makes the target no less certain.
- * Half: the choice of bearings of targets side by side keeps both from starting. Twice: ghosts near
- * a target count as it.
- */
-#define SAME_TARGET_SIGMAS 5.0f
 /*
  * Share at which the lower of two candidates is dropped as a duplicate. Half: targets side by side
  * lose theirs. Twice: no candidate is dropped, and the list fills.

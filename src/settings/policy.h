@@ -17,7 +17,7 @@
 #define LATE_SCANS 2.0f
 
 /*
- * Span of a passive search's cells of rho over range_max_m: range_max_m either way, and room for
+ * Span of the passive paper's cells of rho over range_max_m: range_max_m either way, and room for
  * the sensors' own places. Half: lines farther off than two thirds of range_max_m have no cell.
  * Twice: cells are twice as wide, and close targets share one.
  */
