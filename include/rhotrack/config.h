@@ -307,7 +307,7 @@
 #define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Passive sensors, 2 .. 8; rows of a batch, 4 .. 16. RAM: 25 bytes a bearing, sensor and row. */
+/* Passive sensors, 2 .. 8; rows of a batch, 4 .. 16. RAM: 33 bytes a bearing, sensor and row. */
 #ifndef RHO_MAX_PASSIVE_SENSORS
 #define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 8)
 #endif
@@ -498,7 +498,7 @@ RHO_CONFIG_RANGE(RHO_MAX_PARTS, 1, 32767);
      16 * (RHO_MAX_REFLECTORS + RHO_MAX_EXCLUDED_AREAS) + 78 * RHO_BODY_PLOTS +                    \
      168 * RHO_BODY_TRACKS + 640)
 #define RHO_RAM_SCAN_ASSEMBLER_BYTES                                                               \
-    (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
+    (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 24 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      272 * RHO_MAX_SENSORS + 528)
 
 #endif

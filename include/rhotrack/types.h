@@ -162,19 +162,22 @@ struct rho_scan {
     const struct rho_plot *plots; /* num_plots plots; may be NULL for 0 */
 };
 
-/* One bearing of a sensor that measures nothing else. */
+/* One bearing of a sensor that measures no range; with an elevation it is a direction in space. */
 struct rho_bearing {
     int32_t offset_us; /* time of this bearing after the scan's time */
     float bearing_rad; /* from the sensor to the target, -pi .. pi */
     float sigma_rad;   /* standard deviation, RHO_LIMIT_SIGMA_RAD_MIN .. RHO_LIMIT_SIGMA_RAD_MAX */
     float snr_db;      /* signal-to-noise ratio, 0 where unknown; passed on, not used */
+    float elevation_rad;       /* up from the horizontal, -pi/2 .. pi/2 */
+    float sigma_elevation_rad; /* standard deviation, as sigma_rad; 0: no elevation is measured */
 };
 
 /* One scan of one passive sensor. The bearings belong to the caller and are only read. */
 struct rho_bearing_scan {
     int64_t time_us;
     int32_t sensor_id;
-    float x_m, y_m; /* position of the sensor, the same at every look */
+    float x_m, y_m; /* position of the sensor at this look */
+    float z_m;      /* its height, for elevations */
     /* covered sector, counter-clockwise from .. to; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
     uint32_t num_bearings;

@@ -241,8 +241,7 @@ static unsigned echo_drop_rank(const struct rho_echo *echo, int64_t time_us)
     unsigned missed = echo->unseen;
     if (!echo->was_looked_at && echo->region != UINT8_MAX) {
         const float unseen_s = rho_seconds_between(echo->time_us, time_us);
-        missed += 1u + (unsigned)(unseen_s < MISSED_S * (float)RANKS ? unseen_s / MISSED_S
-                                                                     : (float)RANKS);
+        missed += 1u + (unsigned)rho_cell_at(unseen_s / MISSED_S, RANKS + 1);
     }
     const unsigned rank = missed * 8u / hits;
     return rank < RANKS ? rank : RANKS - 1u;

@@ -359,12 +359,15 @@ static void echoes_with_more_misses_a_hit_are_dropped_first(void **state)
                           more = {.hits = 16, .unseen = 5, .was_looked_at = 1},
                           missed_6 = {.hits = 16, .unseen = 6, .was_looked_at = 1},
                           missed_3 = {.hits = 16, .unseen = 3, .was_looked_at = 1},
-                          not_looked_at = {.hits = 16, .time_us = 1000000000 - 250000000};
+                          not_looked_at = {.hits = 16, .time_us = 1000000000 - 250000000},
+                          of_later = {.hits = 16, .time_us = RHO_LIMIT_TIME_US};
     (void)state;
     assert_int_equal(dropped_echo_of(often, less), 0);
     assert_int_equal(dropped_echo_of(seldom, more), 0);
     assert_int_equal(dropped_echo_of(not_looked_at, missed_6), 1);
     assert_int_equal(dropped_echo_of(not_looked_at, missed_3), 0);
+    /* of a time to come, as an image of a tracker may hold it: one miss */
+    assert_int_equal(dropped_echo_of(of_later, missed_3), 1);
     /* from 64 eighths on echoes are equal, and the later one is dropped */
     const struct rho_echo once_5 = {.hits = 1, .unseen = 5, .was_looked_at = 1},
                           once_7 = {.hits = 1, .unseen = 7, .was_looked_at = 1},
