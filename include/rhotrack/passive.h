@@ -52,14 +52,16 @@ struct rho_passive_config {
 /* A track found by a search: position and constant velocity at the time of the newest scan. */
 struct rho_passive_track {
     float x_m, y_m, vx_mps, vy_mps;
-    float covariance[10]; /* covariance of x, y, vx, vy, lower triangle */
+    float z_m, vz_mps;    /* of bearings with elevations; without any, is_level is 1 */
+    float covariance[21]; /* covariance of x, y, vx, vy, z, vz, lower triangle */
     int32_t score_mnat;   /* log-likelihood ratio of one target against false bearings */
     /* margin: total score of all tracks minus that of the best set of tracks without this one */
     int32_t margin_mnat;
-    /* sum of the bearings' squared normalised residuals, with hits - 4 degrees of freedom */
+    /* sum of the squared normalised residuals of bearings and slopes */
     float chi2;
-    uint16_t hits;  /* number of bearings of the track */
-    uint16_t scans; /* scans with bearings of the track: bit k for scan k, 0 the oldest */
+    uint16_t hits;    /* number of bearings of the track */
+    uint16_t scans;   /* scans with bearings of the track: bit k for scan k, 0 the oldest */
+    uint8_t is_level; /* 1: none of its bearings has an elevation */
     /* bearings of the track: for each scan and sensor the index in the batch, from 1; 0: none */
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
@@ -97,13 +99,15 @@ struct rho_passive_partner {
 struct rho_passive_known {
     uint32_t track_id;
     float x_m, y_m, vx_mps, vy_mps; /* at the time of the newest frame */
+    float z_m, vz_mps;              /* 0 with is_level */
+    uint8_t is_level;               /* 1: its height is not known */
     uint8_t is_safe;                /* 1: its bearings are its own, and start no other track */
     uint8_t is_beaten;              /* result, 1: the best set of tracks is without it */
 };
 
 /* A fitted hypothesis of a track: position at mid-batch, and displacement in half the batch. */
 struct rho_passive_candidate {
-    float state_m[4];
+    float state_m[6]; /* x, y and their displacements, z and its */
     float score_nat;
     uint16_t hits;
     uint16_t known; /* 1 + index of the known track that it is; 0: a new one */

@@ -453,7 +453,8 @@ static int has_used_bearing(float gain_nat)
 
 enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint16_t slot,
                                               int64_t time_us, float x_m, float y_m,
-                                              float bearing_rad, float sigma_rad)
+                                              float bearing_rad, float sigma_rad,
+                                              const struct rho_slope *slope)
 {
     enum rho_status status = RHO_ERROR_VALUE;
     float gains_nat[RHO_HYPOTHESES_OF_TRACK] = {0.0f}, least_nat = 0.0f;
@@ -466,6 +467,9 @@ enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint1
         enum rho_status one = move_hypothesis(pool, at, time_us);
         if (one == RHO_OK) {
             one = rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, gain_nat);
+        }
+        if (one == RHO_OK) {
+            one = rho_imm_update_slope(&at->imm, &pool->model, slope);
         }
         if (has_used_bearing(*gain_nat) &&
             (!has_used_bearing(least_nat) || *gain_nat < least_nat)) {

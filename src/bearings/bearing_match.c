@@ -16,6 +16,13 @@ static float floored_sigma_rad(const struct rho_passive_search *search,
     return bearing->sigma_rad > search->sigma_min_rad ? bearing->sigma_rad : search->sigma_min_rad;
 }
 
+static float floored_sigma_slope(const struct rho_passive_search *search,
+                                 const struct rho_batch_bearing *bearing)
+{
+    return bearing->sigma_slope > 0.0f ? rho_larger(bearing->sigma_slope, search->sigma_min_rad)
+                                       : 0.0f;
+}
+
 struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
                                                          unsigned scan, unsigned sensor,
                                                          const float state_m[N])
@@ -23,7 +30,8 @@ struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passiv
     const struct rho_passive_look *look = &search->at[scan][sensor];
     return (struct rho_passive_offset){
         .x_m = state_m[RHO_PASSIVE_X] + look->step * state_m[RHO_PASSIVE_DX] - look->x_m,
-        .y_m = state_m[RHO_PASSIVE_Y] + look->step * state_m[RHO_PASSIVE_DY] - look->y_m};
+        .y_m = state_m[RHO_PASSIVE_Y] + look->step * state_m[RHO_PASSIVE_DY] - look->y_m,
+        .z_m = state_m[RHO_PASSIVE_Z] + look->step * state_m[RHO_PASSIVE_DZ] - look->z_m};
 }
 
 static float squared_range_m2(struct rho_passive_offset offset)
@@ -82,16 +90,25 @@ static int may_have_bearing_near(const uint32_t *bins, struct rho_passive_offset
     return (int)(bins[bin / 32u] >> bin % 32u & 1u);
 }
 
+/* Height that the slope of a bearing tells at the state's range, above the state's. */
+static float height_above_m(const struct rho_batch_bearing *bearing,
+                            struct rho_passive_offset offset)
+{
+    return bearing->sigma_slope > 0.0f
+               ? bearing->slope * rho_sqrt(squared_range_m2(offset)) - offset.z_m
+               : 0.0f;
+}
+
 /*
  * The bearing of a look with the smallest normalised residual, within MATCH_SIGMAS. The sine of the
  * residual (cross range / range) stands for the angle, and squares are compared: this needs neither
- * arctangent nor square root.
+ * arctangent nor square root. A slope's residual is scaled to count as one of the bearing.
  */
 static struct rho_passive_match find_nearest_bearing(const struct rho_passive_search *search,
                                                      unsigned scan, unsigned sensor,
-                                                     struct rho_passive_offset offset,
-                                                     int include_claimed)
+                                                     struct rho_passive_offset offset, int matching)
 {
+    const unsigned most_claimed = (unsigned)matching & RHO_PASSIVE_ALSO_CLAIMED;
     const struct rho_passive *passive = search->passive;
     const struct rho_batch_bearing *bearings = passive->batch.bearings[scan][sensor];
     /* squared cross range that is MATCH_SIGMAS for the initial sigma of 1 / MATCH_SIGMAS rad */
@@ -101,11 +118,18 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
     for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
         float cross_range_m = bearings[i].sine * offset.x_m - bearings[i].cosine * offset.y_m;
         float sigma_rad = floored_sigma_rad(search, &bearings[i]);
-        if (rho_square(cross_range_m * nearest.sigma_rad) < least_m2 * rho_square(sigma_rad) &&
+        float off_m2 = rho_square(cross_range_m);
+        const float sigma_slope = floored_sigma_slope(search, &bearings[i]);
+        const float above_m = height_above_m(&bearings[i], offset);
+        if (sigma_slope > 0.0f && ((unsigned)matching & RHO_PASSIVE_BY_SLOPE)) {
+            off_m2 += rho_square(above_m * sigma_rad / sigma_slope);
+        }
+        if (off_m2 * rho_square(nearest.sigma_rad) < least_m2 * rho_square(sigma_rad) &&
             bearings[i].cosine * offset.x_m + bearings[i].sine * offset.y_m > 0.0f &&
-            passive->is_claimed[scan][sensor][i] <= include_claimed) {
-            least_m2 = rho_square(cross_range_m);
-            nearest = (struct rho_passive_match){(int)i, offset, cross_range_m, sigma_rad};
+            passive->is_claimed[scan][sensor][i] <= most_claimed) {
+            least_m2 = off_m2;
+            nearest = (struct rho_passive_match){(int)i,    offset,  cross_range_m,
+                                                 sigma_rad, above_m, sigma_slope};
         }
     }
     return nearest;
@@ -113,14 +137,14 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
 
 struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
-                                                   const float state_m[N], int include_claimed)
+                                                   const float state_m[N], int matching)
 {
     struct rho_passive_offset offset =
         rho_passive_offset_from_sensor(search, scan, sensor, state_m);
     if (!may_have_bearing_near(search->passive->directions[scan][sensor], offset)) {
         return (struct rho_passive_match){.bearing = -1};
     }
-    return find_nearest_bearing(search, scan, sensor, offset, include_claimed);
+    return find_nearest_bearing(search, scan, sensor, offset, matching);
 }
 
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
@@ -134,14 +158,24 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
     }
     const struct rho_batch_bearing *bearing =
         &search->passive->batch.bearings[scan][sensor][claim - 1u];
-    return (struct rho_passive_match){(int)claim - 1, offset,
+    return (struct rho_passive_match){(int)claim - 1,
+                                      offset,
                                       bearing->sine * offset.x_m - bearing->cosine * offset.y_m,
-                                      floored_sigma_rad(search, bearing)};
+                                      floored_sigma_rad(search, bearing),
+                                      height_above_m(bearing, offset),
+                                      floored_sigma_slope(search, bearing)};
 }
 
 float rho_passive_residual(const struct rho_passive_match *match)
 {
     return match->cross_range_m / (rho_sqrt(squared_range_m2(match->offset)) * match->sigma_rad);
+}
+
+float rho_passive_slope_residual(const struct rho_passive_match *match)
+{
+    return match->sigma_slope > 0.0f
+               ? match->above_m / (rho_sqrt(squared_range_m2(match->offset)) * match->sigma_slope)
+               : 0.0f;
 }
 
 float rho_passive_agreement(const struct rho_passive_search *search, const float state_m[N],

@@ -112,7 +112,8 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
     float least = SAME_TARGET_SHARE * (float)target->hits;
     for (unsigned i = 0; i < choice->count; i++) {
         if (i == which || (float)passive->shared[which][i] >= least ||
-            rho_passive_distance2(&known, target->state_m, passive->candidates[i].state_m) <
+            rho_passive_distance2(choice->search, &known, target->state_m,
+                                  passive->candidates[i].state_m) <
                 SAME_TARGET_SIGMAS * SAME_TARGET_SIGMAS) {
             choice->is_out[i] = 1;
             if (choice->is_in[i]) {

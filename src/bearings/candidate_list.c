@@ -36,7 +36,7 @@ void rho_passive_offer_if_track(struct rho_passive_search *search,
     struct rho_passive_candidate candidate = {.known = 0};
     float chi2;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
-    rho_passive_claim_nearest(search, &candidate);
+    rho_passive_claim_nearest(search, RHO_PASSIVE_ALSO_CLAIMED | RHO_PASSIVE_BY_SLOPE, &candidate);
     if (!rho_passive_score_claimed(search, &candidate, &chi2)) {
         return;
     }

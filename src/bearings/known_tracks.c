@@ -76,15 +76,19 @@ void rho_passive_list_known(struct rho_passive_search *search)
             known->x_m - search->middle_x_m - taken.state_m[RHO_PASSIVE_DX];
         taken.state_m[RHO_PASSIVE_Y] =
             known->y_m - search->middle_y_m - taken.state_m[RHO_PASSIVE_DY];
+        taken.state_m[RHO_PASSIVE_DZ] = known->vz_mps * search->half_s;
+        taken.state_m[RHO_PASSIVE_Z] = known->z_m - taken.state_m[RHO_PASSIVE_DZ];
         memcpy(fitted.state_m, taken.state_m, sizeof fitted.state_m);
+        const int matching =
+            RHO_PASSIVE_ALSO_CLAIMED | (known->is_level ? 0 : RHO_PASSIVE_BY_SLOPE);
         if (known->is_safe) { /* bearings on its way were its own before it began */
-            rho_passive_claim_nearest(search, &fitted);
+            rho_passive_claim_nearest(search, matching, &fitted);
             rho_passive_mark_claims(passive, &fitted, RHO_PASSIVE_BLOCKED);
             continue;
         }
         claim_taken(search, known->track_id, &taken);
         rho_passive_fit_nearest(search, fitted.state_m);
-        rho_passive_claim_nearest(search, &fitted);
+        rho_passive_claim_nearest(search, RHO_PASSIVE_ALSO_CLAIMED | RHO_PASSIVE_BY_SLOPE, &fitted);
         const int is_better =
             rho_passive_score_claimed(search, &fitted, &chi2) && fitted.score_nat > taken.score_nat;
         struct rho_passive_candidate *candidate = &passive->candidates[passive->num_candidates++];

@@ -12,7 +12,18 @@
 
 #define N RHO_PASSIVE_STATES
 
-/* Adds the linear equation of a bearing, row . change = residual, to the normal equations. */
+/* Adds the linear equation row . change = residual to the normal equations of the first states. */
+static void add_equation(int num_states, const float row[N], float weight, float residual,
+                         struct rho_passive_equations *equations)
+{
+    for (int i = 0; i < num_states; i++) {
+        for (int j = 0; j <= i; j++) {
+            equations->a[RHO_AT(i, j)] += weight * row[i] * row[j];
+        }
+        equations->b[i] += weight * row[i] * residual;
+    }
+}
+
 static void add_bearing_equation(float step, const struct rho_passive_match *nearest,
                                  struct rho_passive_equations *equations)
 {
@@ -22,17 +33,33 @@ static void add_bearing_equation(float step, const struct rho_passive_match *nea
     const float row[N] = {row_x, row_y, step * row_x, step * row_y};
     float weight = 1.0f / (rho_square(nearest->sigma_rad) + rho_square(EXACT_M) / range2_m2);
     float residual = rho_passive_residual(nearest) * nearest->sigma_rad;
-    for (int i = 0; i < N; i++) {
-        for (int j = 0; j <= i; j++) {
-            equations->a[RHO_AT(i, j)] += weight * row[i] * row[j];
-        }
-        equations->b[i] += weight * row[i] * residual;
-    }
+    add_equation(RHO_PASSIVE_Z, row, weight, residual, equations);
 }
 
-static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas)
+/* In metres of height: a slope is linear in height and ground range. */
+static void add_slope_equation(float step, const struct rho_passive_match *nearest,
+                               struct rho_passive_equations *equations)
 {
-    return rho_square(rho_passive_residual(nearest)) < rho_square(gate_sigmas);
+    const struct rho_passive_offset *offset = &nearest->offset;
+    const float range_m = rho_sqrt(rho_square(offset->x_m) + rho_square(offset->y_m));
+    const float slope = (nearest->above_m + offset->z_m) / range_m;
+    const float row_x = -slope * offset->x_m / range_m, row_y = -slope * offset->y_m / range_m;
+    const float row[N] = {row_x, row_y, step * row_x, step * row_y, 1.0f, step};
+    const float weight = 1.0f / (rho_square(nearest->sigma_slope * range_m) + rho_square(EXACT_M));
+    add_equation(N, row, weight, nearest->above_m, equations);
+    equations->num_slopes++;
+}
+
+static float squared_residuals(const struct rho_passive_match *nearest)
+{
+    return rho_square(rho_passive_residual(nearest)) +
+           rho_square(rho_passive_slope_residual(nearest));
+}
+
+/* Whether a state's element is a place, or else a displacement. */
+static int is_place(int element)
+{
+    return element < RHO_PASSIVE_DX || element == RHO_PASSIVE_Z;
 }
 
 struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_search *search,
@@ -47,13 +74,16 @@ struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_
                 rho_passive_match_claimed(search, k, s, track->state_m, track->claim[k][s]);
             if (seen.bearing >= 0) {
                 add_bearing_equation(search->at[k][s].step, &seen, &equations);
+                if (seen.sigma_slope > 0.0f) {
+                    add_slope_equation(search->at[k][s].step, &seen, &equations);
+                }
             }
         }
     }
-    for (int i = 0; i < N; i++) {
-        float weight = i < RHO_PASSIVE_DX ? 1.0f / rho_square(range_m) : 1.0f / rho_square(way_m);
+    for (int i = 0; i < rho_passive_num_states(search); i++) {
+        float weight = is_place(i) ? 1.0f / rho_square(range_m) : 1.0f / rho_square(way_m);
         equations.a[RHO_AT(i, i)] += weight;
-        equations.b[i] -= i < RHO_PASSIVE_DX ? 0.0f : weight * track->state_m[i];
+        equations.b[i] -= is_place(i) ? 0.0f : weight * track->state_m[i];
     }
     return equations;
 }
@@ -68,12 +98,13 @@ int rho_passive_step_to_claims(const struct rho_passive_search *search,
 {
     struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
     float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
-    if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
+    const int n = rho_passive_num_states(search);
+    if (rho_linalg_cholesky(n, equations.a, factor) != RHO_OK) {
         return 0;
     }
-    rho_linalg_forward(N, factor, equations.b);
-    rho_linalg_backward(N, factor, equations.b);
-    for (int i = 0; i < N; i++) {
+    rho_linalg_forward(n, factor, equations.b);
+    rho_linalg_backward(n, factor, equations.b);
+    for (int i = 0; i < n; i++) {
         track->state_m[i] =
             clipped(track->state_m[i] + clipped(equations.b[i], STEP_MAX_RANGES * range_m),
                     POSITION_MAX_RANGES * range_m);
@@ -81,8 +112,8 @@ int rho_passive_step_to_claims(const struct rho_passive_search *search,
     return 1;
 }
 
-/* Claims the nearest bearing of each look within the gate; include_claimed 0: an unclaimed one. */
-static void claim_within(const struct rho_passive_search *search, float gate, int include_claimed,
+/* Claims the nearest bearing of each look within the gate, of those that may match. */
+static void claim_within(const struct rho_passive_search *search, float gate, int matching,
                          struct rho_passive_candidate *track)
 {
     const struct rho_batch *batch = &search->passive->batch;
@@ -90,18 +121,19 @@ static void claim_within(const struct rho_passive_search *search, float gate, in
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                rho_passive_match_nearest(search, k, s, track->state_m, include_claimed);
-            if (nearest.bearing >= 0 && is_in_gate(&nearest, gate)) {
+                rho_passive_match_nearest(search, k, s, track->state_m, matching);
+            nearest.sigma_slope = matching & RHO_PASSIVE_BY_SLOPE ? nearest.sigma_slope : 0.0f;
+            if (nearest.bearing >= 0 && squared_residuals(&nearest) < rho_square(gate)) {
                 track->claim[k][s] = (uint8_t)(nearest.bearing + 1);
             }
         }
     }
 }
 
-void rho_passive_claim_nearest(const struct rho_passive_search *search,
+void rho_passive_claim_nearest(const struct rho_passive_search *search, int matching,
                                struct rho_passive_candidate *track)
 {
-    claim_within(search, BEARING_GATE_SIGMAS, 1, track);
+    claim_within(search, BEARING_GATE_SIGMAS, matching, track);
 }
 
 void rho_passive_fit_nearest(const struct rho_passive_search *search, float state_m[N])
@@ -111,7 +143,11 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     int goes_on = 1;
     memcpy(fitted.state_m, state_m, sizeof fitted.state_m);
     for (unsigned step = 0; step < 4 && goes_on; step++) {
-        claim_within(search, gates[step], 0, &fitted);
+        /* the first step finds the height, which the state may lack */
+        claim_within(search, gates[step],
+                     step > 0 ? RHO_PASSIVE_UNCLAIMED | RHO_PASSIVE_BY_SLOPE
+                              : RHO_PASSIVE_UNCLAIMED,
+                     &fitted);
         goes_on = rho_passive_step_to_claims(search, &fitted);
     }
     memcpy(state_m, fitted.state_m, sizeof fitted.state_m);
@@ -137,7 +173,8 @@ int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned sca
  * sensors whose sector did not contain its position.
  */
 static int is_track(const struct rho_passive_search *search,
-                    const struct rho_passive_candidate *track, float chi2, unsigned out_of_view)
+                    const struct rho_passive_candidate *track, float chi2, int scalars,
+                    unsigned out_of_view)
 {
     const struct rho_passive *passive = search->passive;
     /*
@@ -148,7 +185,8 @@ static int is_track(const struct rho_passive_search *search,
     int has_hits = hits >= share * (float)(search->looks - out_of_view) &&
                    hits >= 0.5f * share * (float)search->looks;
     /* 99.9 % quantile of chi-square, 3.09 sigmas (approximation of Wilson and Hilferty) */
-    float n = track->hits > N ? (float)(track->hits - N) : 1.0f, part = 2.0f / (9.0f * n);
+    const int freedom = scalars - (scalars > (int)track->hits ? N : RHO_PASSIVE_Z);
+    float n = freedom > 0 ? (float)freedom : 1.0f, part = 2.0f / (9.0f * n);
     float root = 1.0f - part + 3.09f * rho_sqrt(part);
     float most_m = passive->config.v_max_mps * search->half_s;
     float way2_m2 =
@@ -166,18 +204,24 @@ static int is_track(const struct rho_passive_search *search,
            !(way2_m2 >= rho_square(most_m)) && sensors >= 2;
 }
 
-/* Log-likelihood ratio of a look in which the state has a bearing with this squared residual. */
+/*
+ * Log-likelihood ratio of a look in which the state has a bearing with these squared residuals. The
+ * slopes of false bearings have the density 1.
+ */
 static float score_of_hit(const struct rho_passive_search *search,
                           const struct rho_passive_match *seen, float chi2)
 {
-    return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * (RHO_LOG_TWO_PI + chi2);
+    const float slope_nat =
+        seen->sigma_slope > 0.0f ? -rho_log(seen->sigma_slope) - 0.5f * RHO_LOG_TWO_PI : 0.0f;
+    return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * (RHO_LOG_TWO_PI + chi2) + slope_nat;
 }
 
-float rho_passive_distance2(const struct rho_passive_equations *equations, const float a_m[N],
+float rho_passive_distance2(const struct rho_passive_search *search,
+                            const struct rho_passive_equations *equations, const float a_m[N],
                             const float b_m[N])
 {
     float sum = 0.0f;
-    for (int i = 0; i < N; i++) {
+    for (int i = 0; i < rho_passive_num_states(search); i++) {
         const float off_m = a_m[i] - b_m[i];
         for (int j = 0; j <= i; j++) {
             const float twice = i == j ? 1.0f : 2.0f;
@@ -198,12 +242,13 @@ static float score_of_prior(const struct rho_passive_search *search,
     const float place_m = 0.5f * search->passive->config.range_max_m;
     const float way_m = 0.5f * search->passive->config.v_max_mps * search->half_s;
     const struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
+    const int n = equations.num_slopes > 0 ? N : RHO_PASSIVE_Z;
     float factor[RHO_TRIANGLE(N)], score_nat = 0.0f;
-    if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
+    if (rho_linalg_cholesky(n, equations.a, factor) != RHO_OK) {
         return -1.0e6f; /* no covariance, no track */
     }
-    for (int i = 0; i < N; i++) {
-        const float sigma_m = i < RHO_PASSIVE_DX ? place_m : way_m;
+    for (int i = 0; i < n; i++) {
+        const float sigma_m = is_place(i) ? place_m : way_m;
         score_nat -= rho_log(factor[RHO_AT(i, i)] * sigma_m) +
                      0.5f * rho_square(track->state_m[i] / sigma_m);
     }
@@ -215,6 +260,7 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
 {
     const struct rho_batch *batch = &search->passive->batch;
     unsigned out_of_view = 0;
+    int scalars = 0;
     track->score_nat = *chi2 = 0.0f;
     track->hits = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
@@ -222,8 +268,9 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
             struct rho_passive_match seen =
                 rho_passive_match_claimed(search, k, s, track->state_m, track->claim[k][s]);
             if (seen.bearing >= 0) {
-                float seen_chi2 = rho_square(rho_passive_residual(&seen));
+                float seen_chi2 = squared_residuals(&seen);
                 track->hits++;
+                scalars += seen.sigma_slope > 0.0f ? 2 : 1;
                 *chi2 += seen_chi2;
                 track->score_nat += score_of_hit(search, &seen, seen_chi2);
             } else if (batch->was_seen[k][s] &&
@@ -235,7 +282,7 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
         }
     }
     track->score_nat += score_of_prior(search, track);
-    return is_track(search, track, *chi2, out_of_view);
+    return is_track(search, track, *chi2, scalars, out_of_view);
 }
 
 float rho_passive_gain_nat(const struct rho_passive_search *search, const float state_m[N],
@@ -247,7 +294,7 @@ float rho_passive_gain_nat(const struct rho_passive_search *search, const float 
     }
     const struct rho_batch_bearing *bearing =
         &search->passive->batch.bearings[scan][sensor][claim - 1u];
-    float chi2 = rho_square(rho_passive_residual(&seen));
+    float chi2 = squared_residuals(&seen);
     if (bearing->cosine * seen.offset.x_m + bearing->sine * seen.offset.y_m <= 0.0f ||
         chi2 >= rho_square(BEARING_GATE_SIGMAS)) {
         return 0.0f;
@@ -255,41 +302,48 @@ float rho_passive_gain_nat(const struct rho_passive_search *search, const float 
     return score_of_hit(search, &seen, chi2) - search->miss_nat;
 }
 
+/*
+ * Covariance of two elements of position p + d and velocity d / half_s at the newest scan, from
+ * that of the state (p, d): position at mid-batch, displacement in half the batch.
+ */
+static float moved_covariance(const float inverse[N * N], int i, int j, float half_s)
+{
+    const int more_i = i < 2 ? i + 2 : i == RHO_PASSIVE_Z ? RHO_PASSIVE_DZ : -1;
+    const int more_j = j < 2 ? j + 2 : j == RHO_PASSIVE_Z ? RHO_PASSIVE_DZ : -1;
+    float sum = inverse[N * i + j];
+    sum += more_i >= 0 ? inverse[N * more_i + j] : 0.0f;
+    sum += more_j >= 0 ? inverse[N * i + more_j] : 0.0f;
+    sum += more_i >= 0 && more_j >= 0 ? inverse[N * more_i + more_j] : 0.0f;
+    return sum / ((more_i < 0 ? half_s : 1.0f) * (more_j < 0 ? half_s : 1.0f));
+}
+
 int rho_passive_estimate_track(const struct rho_passive_search *search,
                                const struct rho_passive_candidate *from,
                                struct rho_passive_track *track)
 {
     const float *state_m = from->state_m;
+    const int n = rho_passive_num_states(search);
     struct rho_passive_equations equations = rho_passive_equate_claims(search, from);
-    float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
-    if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
+    float factor[RHO_TRIANGLE(N)], inverse[N * N] = {0};
+    if (rho_linalg_cholesky(n, equations.a, factor) != RHO_OK) {
         return 0;
     }
-    for (int i = 0; i < N; i++) { /* the inverse, column by column */
-        columns[i][i] = 1.0f;
-        rho_linalg_forward(N, factor, columns[i]);
-        rho_linalg_backward(N, factor, columns[i]);
+    for (int i = 0; i < n; i++) { /* the inverse, column by column */
+        inverse[N * i + i] = 1.0f;
+        rho_linalg_forward(n, factor, &inverse[N * i]);
+        rho_linalg_backward(n, factor, &inverse[N * i]);
     }
-    /*
-     * covariance of position p + d and velocity d / half_s at the newest scan, from that of the
-     * state (p, d): position at mid-batch, displacement in half the batch
-     */
     for (int i = 0; i < N; i++) {
         for (int j = 0; j <= i; j++) {
-            float sum = columns[i][j];
-            if (i < 2) {
-                sum += columns[i][j + 2] + columns[i + 2][j] + columns[i + 2][j + 2];
-            } else if (j < 2) {
-                sum = (sum + columns[i][j + 2]) / search->half_s;
-            } else {
-                sum /= search->half_s * search->half_s;
-            }
-            track->covariance[RHO_AT(i, j)] = sum;
+            track->covariance[RHO_AT(i, j)] = moved_covariance(inverse, i, j, search->half_s);
         }
     }
     track->x_m = search->middle_x_m + state_m[RHO_PASSIVE_X] + state_m[RHO_PASSIVE_DX];
     track->y_m = search->middle_y_m + state_m[RHO_PASSIVE_Y] + state_m[RHO_PASSIVE_DY];
+    track->z_m = state_m[RHO_PASSIVE_Z] + state_m[RHO_PASSIVE_DZ];
     track->vx_mps = state_m[RHO_PASSIVE_DX] / search->half_s;
     track->vy_mps = state_m[RHO_PASSIVE_DY] / search->half_s;
+    track->vz_mps = state_m[RHO_PASSIVE_DZ] / search->half_s;
+    track->is_level = equations.num_slopes == 0;
     return 1;
 }

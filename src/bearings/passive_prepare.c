@@ -30,11 +30,17 @@ void rho_passive_prepare(struct rho_passive_search *search)
             search->at[k][s] = (struct rho_passive_look){
                 .step = rho_seconds_between(first_us, time_us) / search->half_s - 1.0f,
                 .x_m = look->x_m - search->middle_x_m,
-                .y_m = look->y_m - search->middle_y_m};
+                .y_m = look->y_m - search->middle_y_m,
+                .z_m = look->z_m};
             for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
                 float sigma_rad = batch->bearings[k][s][i].sigma_rad;
+                const float sigma_slope = batch->bearings[k][s][i].sigma_slope;
                 float least_rad = sigma_rad / SIGMA_RATIO_MAX;
                 log_sigmas += rho_log(sigma_rad);
+                if (sigma_slope > 0.0f) {
+                    log_sigmas += rho_log(sigma_slope) + 0.5f * RHO_LOG_TWO_PI;
+                    search->has_slopes = 1;
+                }
                 total += 1.0f;
                 search->sigma_min_rad = rho_larger(least_rad, search->sigma_min_rad);
             }

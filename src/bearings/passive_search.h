@@ -23,13 +23,22 @@
 
 /*
  * A state is the position at mid-batch (x, y) and the displacement in half the batch (dx, dy), all
- * in metres, from the looks' centroid: the position at a look is (x, y) + step (dx, dy).
+ * in metres, from the looks' centroid: the position at a look is (x, y) + step (dx, dy). The height
+ * and its displacement come last: a search without elevations leaves them alone.
  */
-enum { RHO_PASSIVE_X, RHO_PASSIVE_Y, RHO_PASSIVE_DX, RHO_PASSIVE_DY, RHO_PASSIVE_STATES };
+enum {
+    RHO_PASSIVE_X,
+    RHO_PASSIVE_Y,
+    RHO_PASSIVE_DX,
+    RHO_PASSIVE_DY,
+    RHO_PASSIVE_Z,
+    RHO_PASSIVE_DZ,
+    RHO_PASSIVE_STATES
+};
 
 /* Time of a look, from -1 for the first row's to 1 for the newest frame's, and its place. */
 struct rho_passive_look {
-    float step, x_m, y_m;
+    float step, x_m, y_m, z_m;
 };
 
 /* Values computed once for a search. Positions are relative to the looks' centroid. */
@@ -47,10 +56,17 @@ struct rho_passive_search {
     float sigma_min_rad; /* floor of the bearings' sigmas */
     float mean_log_sigma;
     unsigned looks; /* number of reports: pairs of scan and sensor */
+    int has_slopes; /* 1: some bearings have an elevation, and states a height */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
     uint32_t worst_point; /* index of the least certain crossing; num_points: not known */
 };
+
+/* Elements of a state that the bearings of the search tell. */
+static inline int rho_passive_num_states(const struct rho_passive_search *search)
+{
+    return search->has_slopes ? RHO_PASSIVE_STATES : RHO_PASSIVE_Z;
+}
 
 /* Computes the values of *search that follow from the batch: geometry, times, likelihood ratios. */
 void rho_passive_prepare(struct rho_passive_search *search);
@@ -91,7 +107,7 @@ int rho_passive_connect_crossings(const struct rho_passive_search *search,
 void rho_passive_fit_pairs(struct rho_passive_search *search);
 /* Vector from a sensor to the position of a state at the time of its look. */
 struct rho_passive_offset {
-    float x_m, y_m;
+    float x_m, y_m, z_m;
 };
 struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
                                                          unsigned scan, unsigned sensor,
@@ -103,13 +119,21 @@ struct rho_passive_match {
     struct rho_passive_offset offset;
     float cross_range_m; /* distance of the state's position from the ray of the bearing, signed */
     float sigma_rad;
+    float above_m;     /* height that the slope tells at the state's range, above the state's */
+    float sigma_slope; /* 0: without a slope */
 };
 
-/* Matches a state with the nearest bearing of a look; include_claimed 0: an unclaimed one. */
+/* Which bearings may match a state. */
+enum rho_passive_matching {
+    RHO_PASSIVE_UNCLAIMED = 0,
+    RHO_PASSIVE_ALSO_CLAIMED = 1,
+    RHO_PASSIVE_BY_SLOPE = 2 /* to be or-ed: the nearest by bearing and slope, else by bearing */
+};
+/* Matches a state with the nearest bearing of a look. */
 struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
-                                                   int include_claimed);
+                                                   int matching);
 /* Matches a state with bearing `claim` (from 1) of a look at any distance; claim 0: none, -1. */
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
@@ -117,6 +141,8 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
                                                    unsigned claim);
 /* Measured minus predicted bearing of a match, divided by the bearing's sigma. */
 float rho_passive_residual(const struct rho_passive_match *match);
+/* The same of its slope; 0 where it has none. */
+float rho_passive_slope_residual(const struct rho_passive_match *match);
 /*
  * Marks, for each look, the directions within nine sigmas of a bearing, for a quick test. Needed
  * before states are matched with nearest bearings.
@@ -140,17 +166,19 @@ int rho_passive_step_to_claims(const struct rho_passive_search *search,
                                struct rho_passive_candidate *track);
 
 /* Claims for a track's state the nearest bearing of each look within 3.5 sigmas. */
-void rho_passive_claim_nearest(const struct rho_passive_search *search,
+void rho_passive_claim_nearest(const struct rho_passive_search *search, int matching,
                                struct rho_passive_candidate *track);
 /* Normal equations a x = b of a fit; a, a lower triangle, is the inverse of its covariance. */
 struct rho_passive_equations {
-    float a[10], b[RHO_PASSIVE_STATES];
+    float a[21], b[RHO_PASSIVE_STATES];
+    int num_slopes;
 };
 /* Those of the bearings that a candidate claims. */
 struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_search *search,
                                                        const struct rho_passive_candidate *track);
 /* Squared distance of two states in sigmas. */
-float rho_passive_distance2(const struct rho_passive_equations *equations,
+float rho_passive_distance2(const struct rho_passive_search *search,
+                            const struct rho_passive_equations *equations,
                             const float a_m[RHO_PASSIVE_STATES],
                             const float b_m[RHO_PASSIVE_STATES]);
 /* Whether the state's position was within the sensor's sector in the scan. */

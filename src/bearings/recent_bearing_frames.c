@@ -171,7 +171,10 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
     batch->sensors[s] = (struct rho_batch_sensor){scan->sensor_id, scan->x_m, scan->y_m};
     const int64_t time_us = scan->time_us != 0 ? scan->time_us : batch->newest_us;
     batch->looks[k][s] =
-        (struct rho_batch_look){(int32_t)(time_us - batch->time_us[k]), scan->x_m, scan->y_m};
+        (struct rho_batch_look){.offset_us = (int32_t)(time_us - batch->time_us[k]),
+                                .x_m = scan->x_m,
+                                .y_m = scan->y_m,
+                                .z_m = scan->z_m};
     count_left(batch, k, s);
     batch->num_bearings[k][s] = 0;
     batch->was_seen[k][s] = 1;
@@ -188,11 +191,14 @@ static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *s
         } else if (*count == RHO_MAX_BEARINGS) {
             fates[i] = RHO_FATE_NO_ROOM;
         } else {
+            const struct rho_slope slope = rho_measurement_slope(scan, from);
             batch->bearings[k][s][(*count)++] = (struct rho_batch_bearing){
                 .cosine = rho_cos(from->bearing_rad),
                 .sine = rho_sin(from->bearing_rad),
                 .bearing_rad = from->bearing_rad,
                 .sigma_rad = from->sigma_rad,
+                .slope = slope.value,
+                .sigma_slope = slope.sigma,
                 .owner = owners ? owners[i] : (struct rho_batch_owner){0, 0.0f}};
         }
     }
@@ -258,6 +264,7 @@ static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned 
     if (batch->num_bearings[scan][sensor] > RHO_MAX_BEARINGS || batch->was_seen[scan][sensor] > 1 ||
         look->offset_us > 2 * RHO_LIMIT_OFFSET_US || look->offset_us < -RHO_LIMIT_OFFSET_US ||
         !rho_is_coordinate(look->x_m) || !rho_is_coordinate(look->y_m) ||
+        !rho_is_coordinate(look->z_m) ||
         !rho_angle_is_valid_sector(batch->sector_from_rad[scan][sensor],
                                    batch->sector_to_rad[scan][sensor])) {
         return 0;
@@ -267,6 +274,8 @@ static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned 
         if (!rho_is_within(bearing->cosine, -1.01f, 1.01f) ||
             !rho_is_within(bearing->sine, -1.01f, 1.01f) ||
             !rho_is_within(bearing->bearing_rad, -10.0f, 10.0f) ||
+            !rho_is_within(bearing->slope, -10.0f, 10.0f) ||
+            !rho_is_within(bearing->sigma_slope, 0.0f, 100.0f) ||
             !rho_is_within(bearing->owner.density_nat, -1.0e6f, 1.0e6f) ||
             !rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX)) {
             return 0;

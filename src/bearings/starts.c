@@ -59,6 +59,7 @@ int rho_passive_connect_crossings(const struct rho_passive_search *search,
         return 0;
     }
     const float x = (yy * dx_m - xy * dy_m) / size, y = (xx * dy_m - yx * dx_m) / size;
+    state_m[RHO_PASSIVE_Z] = state_m[RHO_PASSIVE_DZ] = 0.0f;
     state_m[RHO_PASSIVE_DX] = x;
     state_m[RHO_PASSIVE_DY] = y;
     state_m[RHO_PASSIVE_X] = a->x_m - from[0][0] * x - from[0][1] * y;

@@ -359,3 +359,39 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
     }
     return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2);
 }
+
+int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho_slope *slope,
+                               struct rho_kalman_bearing *seen)
+{
+    const float dx_m = kalman->state[RHO_X] - slope->x_m, dy_m = kalman->state[RHO_Y] - slope->y_m;
+    const float range2_m2 = dx_m * dx_m + dy_m * dy_m;
+    if (!(slope->sigma > 0.0f) || !(range2_m2 >= RHO_RANGE_LEAST_M * RHO_RANGE_LEAST_M) ||
+        !(range2_m2 <= FLT_MAX)) {
+        return 0;
+    }
+    const float range_m = rho_sqrt(range2_m2), c = dx_m / range_m, s = dy_m / range_m;
+    *seen = (struct rho_kalman_bearing){
+        .row = {[RHO_X] = -slope->value * c, [RHO_Y] = -slope->value * s, [RHO_Z] = 1.0f},
+        .off_m = slope->z_m + slope->value * range_m - kalman->state[RHO_Z],
+        .range_m = range_m};
+    const float *p = kalman->covariance;
+    const float along_m2 = p[RHO_XX] * c * c + 2.0f * p[RHO_YX] * s * c + p[RHO_YY] * s * s;
+    seen->variance_m2 = slope->sigma * slope->sigma * (range2_m2 + along_m2);
+    return 1;
+}
+
+enum rho_status rho_kalman_update_slope(struct rho_kalman *kalman, const struct rho_slope *slope,
+                                        float velocity_variance)
+{
+    struct rho_kalman_bearing seen;
+    float projected[RHO_KALMAN_STATES];
+    if (!rho_kalman_linearise_slope(kalman, slope, &seen)) {
+        return RHO_OK;
+    }
+    if (rho_kalman_has_axis(kalman, RHO_Z)) {
+        return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2);
+    }
+    const float variance_m2 =
+        rho_linalg_project6(kalman->covariance, seen.row, projected) + seen.variance_m2;
+    return rho_kalman_open_axis(kalman, RHO_Z, seen.off_m, variance_m2, velocity_variance);
+}

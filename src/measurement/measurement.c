@@ -162,8 +162,25 @@ float rho_measurement_factor_max(const struct rho_sensor *sensor)
 
 int rho_bearing_is_valid(const struct rho_bearing *bearing)
 {
+    const int has_elevation =
+        bearing->sigma_elevation_rad < 0.0f || bearing->sigma_elevation_rad > 0.0f;
     return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
-           is_valid_sigma_rad(bearing->sigma_rad);
+           is_valid_sigma_rad(bearing->sigma_rad) && rho_is_finite(bearing->sigma_elevation_rad) &&
+           (!has_elevation || (is_valid_sigma_rad(bearing->sigma_elevation_rad) &&
+                               rho_is_within(bearing->elevation_rad, -RHO_HALF_PI, RHO_HALF_PI)));
+}
+
+struct rho_slope rho_measurement_slope(const struct rho_bearing_scan *scan,
+                                       const struct rho_bearing *bearing)
+{
+    struct rho_slope slope = {.x_m = scan->x_m, .y_m = scan->y_m, .z_m = scan->z_m};
+    if (bearing->sigma_elevation_rad > 0.0f &&
+        rho_magnitude(bearing->elevation_rad) <= RHO_ELEVATION_MAX_RAD) {
+        const float cosine = rho_cos(bearing->elevation_rad);
+        slope.value = rho_sin(bearing->elevation_rad) / cosine;
+        slope.sigma = bearing->sigma_elevation_rad / (cosine * cosine);
+    }
+    return slope;
 }
 
 void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,

@@ -117,11 +117,15 @@ static void add_owner(const struct step *step, struct owners_list *list, uint32_
         const float *state = track->kalman.state;
         const float dt_s = rho_seconds_between(track->time_us, step->look.time_us);
         struct rho_passive_known *known = &list->known[list->num++];
-        *known = (struct rho_passive_known){.track_id = *track_id,
-                                            .x_m = state[0] + dt_s * state[3],
-                                            .y_m = state[1] + dt_s * state[4],
-                                            .vx_mps = state[3],
-                                            .vy_mps = state[4]};
+        *known =
+            (struct rho_passive_known){.track_id = *track_id,
+                                       .x_m = state[0] + dt_s * state[3],
+                                       .y_m = state[1] + dt_s * state[4],
+                                       .z_m = state[2] + dt_s * state[5],
+                                       .vx_mps = state[3],
+                                       .vy_mps = state[4],
+                                       .vz_mps = state[5],
+                                       .is_level = !rho_kalman_has_axis(&track->kalman, RHO_Z)};
         known->is_safe = track->plot_sigma_m > 0.0f || track->is_operators ||
                          rho_track_is_frozen(track) ||
                          list->num_challenged == RHO_MAX_PASSIVE_TRACKS;
@@ -226,13 +230,14 @@ static int admit_found_track(struct step *step, uint32_t heir_id, const struct r
 static void start_found_track(struct step *step, struct owners_list *list,
                               const struct rho_passive_track *found)
 {
-    static const uint8_t place[4] = {0, 1, 3, 4}; /* of x, y, vx and vy in a state of three axes */
+    static const uint8_t place[6] = {0, 1, 3, 4, 2, 5}; /* in a state of three axes */
     struct rho_tracker *tracker = step->tracker;
     const struct rho_batch *batch = &step->passive->batch;
-    const float state[4] = {found->x_m, found->y_m, found->vx_mps, found->vy_mps};
+    const float state[6] = {found->x_m,    found->y_m, found->vx_mps,
+                            found->vy_mps, found->z_m, found->vz_mps};
     struct rho_kalman estimate;
     rho_kalman_init(&estimate);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < (found->is_level ? 4 : 6); i++) {
         estimate.state[place[i]] = state[i];
         for (int j = 0; j <= i; j++) {
             estimate.covariance[RHO_AT(place[i], place[j])] = found->covariance[RHO_AT(i, j)];

@@ -94,6 +94,15 @@ static struct rho_bearing gated_bearing(const struct rho_look *look, uint32_t i)
     return bearing;
 }
 
+/*
+ * ln of a bearing's density where its track is expected. Slopes of false bearings are taken to have
+ * the density 1: they are as likely anywhere within a slope of one.
+ */
+static float density_nat(const struct rho_gate_result *at)
+{
+    return at->slope_nat - 0.5f * (RHO_LOG_TWO_PI + at->log_det + at->distance2);
+}
+
 /* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
 static int score_bearing(const struct rho_look *look, const struct rho_gate *gate,
                          const struct rho_track *track, float log_pd, uint32_t i,
@@ -103,12 +112,10 @@ static int score_bearing(const struct rho_look *look, const struct rho_gate *gat
     struct rho_bearing bearing = gated_bearing(look, i);
     /* the update by an earlier look of the frame may have moved the track from the frame's time */
     bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
-    if (look->fates[i] != RHO_FATE_HELD ||
-        !rho_gate_test_bearing(gate, &bearing, scan->x_m, scan->y_m, at)) {
+    if (look->fates[i] != RHO_FATE_HELD || !rho_gate_test_bearing(gate, scan, &bearing, at)) {
         return 0;
     }
-    *gain_nat =
-        log_pd - 0.5f * (RHO_LOG_TWO_PI + at->log_det + at->distance2) - look->log_false_bearings;
+    *gain_nat = log_pd + density_nat(at) - look->log_false_bearings;
     return 1;
 }
 
@@ -210,7 +217,7 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
         total += weight * rho_exp(at.log_det);
         if (weight > best) {
             best = weight;
-            mix.density_nat = -0.5f * (RHO_LOG_TWO_PI + at.log_det + at.distance2);
+            mix.density_nat = density_nat(&at);
             mix.as_one.row = (int16_t)i;
             mix.as_one.time_us = time_us;
         }
@@ -220,6 +227,9 @@ static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
     mix.hit = hit / sum;
     mix.gain_nat = rho_log(sum);
     mix.as_one.row = (int16_t)(best > 0.5f * sum ? mix.as_one.row : -1);
+    if (mix.as_one.row >= 0) {
+        mix.as_one.slope = rho_measurement_slope(scan, &scan->bearings[mix.as_one.row]);
+    }
     if (hit > 0.0f) {
         const float variance = total / hit;
         mean /= sum;

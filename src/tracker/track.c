@@ -499,7 +499,7 @@ static enum rho_status update_by_bearing(struct rho_track *track,
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         status = rho_hypotheses_update_bearing(model->hypotheses, track->slot, bearing->time_us,
                                                bearing->x_m, bearing->y_m, bearing->bearing_rad,
-                                               bearing->sigma_rad);
+                                               bearing->sigma_rad, &bearing->slope);
         /* merged at once, so that the gate for the next sensor's bearings is narrower */
         rho_track_merge_estimates(track, bearing->time_us, model);
     } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
@@ -508,6 +508,9 @@ static enum rho_status update_by_bearing(struct rho_track *track,
         if (status == RHO_OK) {
             status = rho_input_update_bearing(&input, model->input, bearing->x_m, bearing->y_m,
                                               bearing->bearing_rad, bearing->sigma_rad);
+        }
+        if (status == RHO_OK) {
+            status = rho_input_update_slope(&input, model->input, &bearing->slope);
         }
         if (status == RHO_OK) {
             track->input = input;
@@ -520,6 +523,10 @@ static enum rho_status update_by_bearing(struct rho_track *track,
         if (status == RHO_OK) {
             status = rho_kalman_update_bearing(&kalman, bearing->x_m, bearing->y_m,
                                                bearing->bearing_rad, bearing->sigma_rad);
+        }
+        if (status == RHO_OK) {
+            status = rho_kalman_update_slope(&kalman, &bearing->slope,
+                                             rho_square(model->speed_sigma_mps));
         }
         if (status == RHO_OK) {
             track->kalman = kalman;

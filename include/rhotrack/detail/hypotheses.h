@@ -267,13 +267,15 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool
                                                      int64_t time_us);
 
 /*
- * Updates all hypotheses with a bearing that is known to be the target's, and their weights by its
- * likelihood; those much lighter than the best are removed. Stack: 800 bytes.
+ * Updates all hypotheses with a bearing that is known to be the target's, and the slope that comes
+ * with it, and their weights by the bearing's likelihood; those much lighter than the best are
+ * removed. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool,
                                                              uint16_t slot, int64_t time_us,
                                                              float x_m, float y_m,
-                                                             float bearing_rad, float sigma_rad);
+                                                             float bearing_rad, float sigma_rad,
+                                                             const struct rho_slope *slope);
 
 /*
  * Fills *estimate with the mean over all hypotheses of a slot, moved to time_us. Errors:

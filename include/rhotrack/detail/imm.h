@@ -241,6 +241,15 @@ RHO_MUST_CHECK enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float
                                                       float *gain_nat);
 
 /*
+ * Updates both models with a slope, or gives them a height where they have none; it tells nothing
+ * of their probabilities. Where it cannot be linearised, nothing is done, RHO_OK. Errors: as
+ * rho_imm_update. Stack: 600 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_imm_update_slope(struct rho_imm *imm,
+                                                    const struct rho_imm_model *model,
+                                                    const struct rho_slope *slope);
+
+/*
  * Fills *estimate with the mean over both models and its covariance, which includes the spread
  * between the models; accel_mps2 (may be NULL) gets the mean acceleration.
  */

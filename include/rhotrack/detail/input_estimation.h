@@ -159,6 +159,11 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
                                                         float x_m, float y_m, float bearing_rad,
                                                         float sigma_rad);
 
+/* Updates with a slope, as rho_kalman_update_slope. Cost and stack: as for a bearing. */
+RHO_MUST_CHECK enum rho_status rho_input_update_slope(struct rho_input *input,
+                                                      const struct rho_input_config *config,
+                                                      const struct rho_slope *slope);
+
 /*
  * Tests on each axis whether an input is present, restarts its estimation where none is, and moves
  * the effect of an input that has ended into the estimate. To be called once a scan with a plot,

@@ -181,6 +181,23 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
                                                          float y_m, float bearing_rad,
                                                          float sigma_rad);
 
+/*
+ * Linearises a slope at an estimate, into *seen, in metres of height; for an estimate without a
+ * height off_m is the height itself. Returns 0, and fills nothing, for a slope that is not
+ * measured, and as rho_kalman_linearise_bearing. Cost: a square root, a division. Stack: 64 bytes.
+ */
+int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho_slope *slope,
+                               struct rho_kalman_bearing *seen);
+
+/*
+ * Updates with a slope, or gives a height to an estimate that has none. Nothing is done where it
+ * cannot be linearised, RHO_OK. Errors: as rho_kalman_update_row and rho_kalman_open_axis. Cost:
+ * rho_kalman_update_row and rho_kalman_linearise_slope. Stack: 300 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_update_slope(struct rho_kalman *kalman,
+                                                       const struct rho_slope *slope,
+                                                       float velocity_variance);
+
 /* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
 static inline int rho_kalman_has_axis(const struct rho_kalman *kalman, int axis)
 {

@@ -53,8 +53,29 @@ int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor);
 /* True where all measured fields of a plot are finite and within the limits of types.h. */
 int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures);
 
-/* True where a bearing is within +-pi and its sigma within the limits of types.h. Constant cost. */
+/*
+ * True where a bearing is within +-pi, an elevation that it has within +-pi/2, and their sigmas
+ * within the limits of types.h. Constant cost.
+ */
 int rho_bearing_is_valid(const struct rho_bearing *bearing);
+
+/*
+ * Slope of a line of sight from a place: height over ground range. It is linear in both, and the
+ * ground range is what bearings tell.
+ */
+struct rho_slope {
+    float x_m, y_m, z_m; /* the place that it is seen from */
+    float value, sigma;  /* tangent of the elevation; sigma 0: not measured */
+};
+
+/*
+ * The slope of a valid bearing of a scan; not measured without an elevation, and nearer to the
+ * vertical than RHO_ELEVATION_MAX_RAD leaves. Cost: a sine, a cosine, two divisions. Stack: 80
+ * bytes.
+ */
+#define RHO_ELEVATION_MAX_RAD 1.4f
+struct rho_slope rho_measurement_slope(const struct rho_bearing_scan *scan,
+                                       const struct rho_bearing *bearing);
 
 /* Factors of the sigmas of a sensor's plots, along the line of sight and across it. */
 struct rho_sigma_factors {

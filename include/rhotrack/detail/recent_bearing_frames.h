@@ -32,7 +32,7 @@ struct rho_batch_sensor {
 /* When and where a sensor looked. */
 struct rho_batch_look {
     int32_t offset_us; /* time after that of its row */
-    float x_m, y_m;
+    float x_m, y_m, z_m;
 };
 
 /* The track that has a bearing, and ln of its density, 1/rad, where the last one expected it. */
@@ -45,6 +45,7 @@ struct rho_batch_owner {
 struct rho_batch_bearing {
     float cosine, sine, bearing_rad;
     float sigma_rad;
+    float slope, sigma_slope; /* tangent of its elevation; sigma 0: not measured */
     struct rho_batch_owner owner;
 };
 

@@ -241,7 +241,8 @@ struct rho_track_bearing {
     int32_t sensor_id;
     float x_m, y_m; /* place of the sensor */
     float bearing_rad, sigma_rad;
-    int16_t row; /* row of the bearing in its scan */
+    struct rho_slope slope; /* that of its elevation */
+    int16_t row;            /* row of the bearing in its scan */
 };
 
 /*

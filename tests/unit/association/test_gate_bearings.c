@@ -22,6 +22,14 @@ struct expected {
     double distance2, log_det;
 };
 
+/* Tests a bearing of a sensor at this place. */
+static int is_in_gate(const struct rho_gate *gate, const struct rho_bearing *bearing, float x_m,
+                      float y_m, struct rho_gate_result *result)
+{
+    const struct rho_bearing_scan scan = {.x_m = x_m, .y_m = y_m};
+    return rho_gate_test_bearing(gate, &scan, bearing, result);
+}
+
 static struct expected expected_gate(const struct rho_kalman *kalman,
                                      const struct rho_bearing *bearing, const double place[2])
 {
@@ -92,7 +100,7 @@ static void the_distance_agrees_with_the_linearised_filter(void **state)
         struct rho_gate_result result = {.has_z = 1, .has_range_rate = 1};
 
         rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-        const int is_in = rho_gate_test_bearing(&gate, &bearing, 2000.0f, -7000.0f, &result);
+        const int is_in = is_in_gate(&gate, &bearing, 2000.0f, -7000.0f, &result);
         if (fabs(expected.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3) {
             assert_int_equal(is_in, expected.distance2 < (double)RHO_GATE_CHI2_1D);
         }
@@ -128,7 +136,7 @@ static void the_gate_misses_one_true_bearing_in_a_thousand(void **state)
             .sigma_rad = 0.002f};
         struct rho_gate_result result;
 
-        outside += !rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result);
+        outside += !is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result);
     }
     print_message("outside the gate: %d of 100000\n", outside);
     assert_in_range(outside, 60, 140); /* 100 expected, standard deviation 10 */
@@ -147,12 +155,12 @@ static void the_gate_is_at_the_bearings_own_time(void **state)
     kalman.state[1] = 1000.0f;
     kalman.state[3] = 400.0f;
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 0);
+    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 0);
     bearing.offset_us = 2076000; /* the target is at (1830, 1000) m then */
-    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
+    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 1);
     assert_true(result.distance2 < 0.1f);
     bearing.offset_us = -2076000;
-    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 0);
+    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 0);
 }
 
 static void assert_outside_gate(const struct rho_kalman *kalman, struct rho_bearing bearing,
@@ -164,7 +172,7 @@ static void assert_outside_gate(const struct rho_kalman *kalman, struct rho_bear
     memset(&guard, 0x5a, sizeof guard);
     result = guard;
     rho_gate_open(&gate, kalman, NOISE, NULL, 0);
-    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, x_m, 0.0f, &result), 0);
+    assert_int_equal(is_in_gate(&gate, &bearing, x_m, 0.0f, &result), 0);
     assert_memory_equal(&result, &guard, sizeof result);
 }
 
@@ -178,7 +186,7 @@ static void invalid_bearings_and_estimates_are_outside_the_gate(void **state)
 
     (void)state;
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
+    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 1);
     kalman.state[1] = 0.4f;
     assert_outside_gate(&kalman, bearing, 100.5f); /* the target is at the sensor's place */
     kalman.state[1] = 200.0f;

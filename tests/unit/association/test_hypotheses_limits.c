@@ -11,6 +11,9 @@
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
+/* a bearing without elevation */
+static const struct rho_slope level = {.sigma = 0.0f};
+
 static struct rho_hypotheses pool, copy;
 
 static const struct rho_hypotheses_clutter thin = {-11.0f, -6.0f, -6.0f, -6.0f};
@@ -642,7 +645,7 @@ static void a_plot_or_bearing_that_is_too_old_changes_nothing(void **state)
         memcpy(&copy, &pool, sizeof pool);
         const enum rho_status status =
             is_bearing ? rho_hypotheses_update_bearing(&pool, slot, INT64_C(-300000000), 0.0f,
-                                                       -5000.0f, 1.57f, 0.01f)
+                                                       -5000.0f, 1.57f, 0.01f, &level)
                        : rho_hypotheses_update(&pool, slot, &seen, INT64_C(-300000000));
         assert_int_equal(status, RHO_ERROR_VALUE);
         assert_int_equal(pool.updates_refused, num);
@@ -680,9 +683,9 @@ static void a_bearing_reorders_the_hypotheses_by_likelihood(void **state)
         best = fmax(best, expected[i]);
     }
     memcpy(&copy, &pool, sizeof pool);
-    assert_int_equal(
-        rho_hypotheses_update_bearing(&pool, slot, 2000000, -21.0f, -9000.0f, 1.5707963f, 1e-4f),
-        RHO_OK);
+    assert_int_equal(rho_hypotheses_update_bearing(&pool, slot, 2000000, -21.0f, -9000.0f,
+                                                   1.5707963f, 1e-4f, &level),
+                     RHO_OK);
     assert_int_equal(rho_hypotheses_at(&pool, slot, 0)->picks[2], 1);
     assert_weights_fall_from_zero(&pool, slot);
     for (unsigned i = 0; i < num; ++i) {
@@ -728,8 +731,9 @@ static void arguments_are_checked(void **state)
         assert_int_equal(rho_hypotheses_predict(&pool, none, 0), RHO_ERROR_STATE);
         assert_int_equal(rho_hypotheses_commit(&pool, none, &scan, &outcome), RHO_ERROR_STATE);
         assert_int_equal(rho_hypotheses_update(&pool, none, &seen, 0), RHO_ERROR_STATE);
-        assert_int_equal(rho_hypotheses_update_bearing(&pool, none, 0, 0.0f, 0.0f, 0.0f, 0.1f),
-                         RHO_ERROR_STATE);
+        assert_int_equal(
+            rho_hypotheses_update_bearing(&pool, none, 0, 0.0f, 0.0f, 0.0f, 0.1f, &level),
+            RHO_ERROR_STATE);
         assert_int_equal(rho_hypotheses_estimate(&pool, none, 0, &estimate), RHO_ERROR_STATE);
         assert_int_equal(
             rho_hypotheses_score_plot(&pool, none, &seen, 0, 0, 0.0f, &thin, &gain_nat), 0);

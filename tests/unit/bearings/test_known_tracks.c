@@ -359,8 +359,12 @@ static void tracks_that_were_found_are_not_beaten(void **state)
         assert_int_equal(passive.num_tracks, 2);
         for (unsigned t = 0; t < 2; t++) {
             const struct rho_passive_track *track = &passive.tracks[t];
-            known[t] = (struct rho_passive_known){
-                5 + t, track->x_m, track->y_m, track->vx_mps, track->vy_mps, 0, 0};
+            known[t] = (struct rho_passive_known){.track_id = 5 + t,
+                                                  .x_m = track->x_m,
+                                                  .y_m = track->y_m,
+                                                  .vx_mps = track->vx_mps,
+                                                  .vy_mps = track->vy_mps,
+                                                  .is_level = 1};
             assert_int_equal(rho_passive_give(&passive, track, 5 + t), track->hits);
         }
         challenge(known, 2);

@@ -20,6 +20,9 @@
 #define LOG_PD (-0.1f)
 #define LOG_MISS (-2.3f)
 
+/* a bearing without elevation */
+static const struct rho_slope level = {.sigma = 0.0f};
+
 static struct rho_hypotheses pool;
 /* clutter so dense that a plot of the target is worth about as much as a miss */
 static const struct rho_hypotheses_clutter clutter = {.log_per_m2 = -9.0f, .log_per_m = -9.0f};
@@ -116,9 +119,9 @@ static void a_bearing_drops_hypotheses_it_contradicts(void **state)
     assert_int_equal(is_plot_in_gate(slot, 2, &aside, 0, &reach), 1);
     extend_hypotheses_by_plot(slot, 2, &aside, 0);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
-    assert_int_equal(
-        rho_hypotheses_update_bearing(&pool, slot, 2 * SCAN_US, -5000.0f, 0.0f, -0.02f, 1e-3f),
-        RHO_OK);
+    assert_int_equal(rho_hypotheses_update_bearing(&pool, slot, 2 * SCAN_US, -5000.0f, 0.0f, -0.02f,
+                                                   1e-3f, &level),
+                     RHO_OK);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 1);
     assert_int_equal(pool.num_free, RHO_MAX_HYPOTHESES - 1);
     assert_true(rho_hypotheses_at(&pool, slot, 0)->imm.steady.state[1] < 0.0f);
@@ -145,7 +148,7 @@ static void a_bearing_undefined_for_a_hypothesis_does_not_favour_it(void **state
         atan2f(best.imm.steady.state[1] - at_m[1], best.imm.steady.state[0] - at_m[0]);
     assert_true(other.weight_nat > -2.5f); /* a smaller loss than the bearing causes */
     assert_int_equal(rho_hypotheses_update_bearing(&pool, slot, 2 * SCAN_US, at_m[0], at_m[1],
-                                                   bearing_rad, 1.0f),
+                                                   bearing_rad, 1.0f, &level),
                      RHO_OK);
     assert_int_equal(rho_hypotheses_at(&pool, slot, 0)->picks[RHO_HYPOTHESES_MEMORY - 1],
                      best.picks[RHO_HYPOTHESES_MEMORY - 1]);
