@@ -80,8 +80,8 @@ struct rho_frames_sensor {
 struct rho_frames_scan {
     int64_t time_us;
     float sector_from_rad, sector_to_rad;
-    float x_m, y_m;  /* place of the sensor */
-    uint16_t sensor; /* index of the scan's sensor in sensors[] */
+    float x_m, y_m, z_m; /* place of the sensor */
+    uint16_t sensor;     /* index of the scan's sensor in sensors[] */
     uint16_t num_bearings;
     struct rho_bearing bearings[RHO_MAX_BEARINGS];
 };

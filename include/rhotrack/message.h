@@ -51,6 +51,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_BODY,
     RHO_MESSAGE_TYPE_COMMAND_ANSWER,
     RHO_MESSAGE_TYPE_COMMAND,
+    RHO_MESSAGE_TYPE_DIRECTION,
     RHO_MESSAGE_TYPE_ECHO,
     RHO_MESSAGE_TYPE_GHOST,
     RHO_MESSAGE_TYPE_HYPOTHESIS,
@@ -73,6 +74,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_BEARING_SCAN,
     RHO_MESSAGE_TYPE_BODY_LIST,
     RHO_MESSAGE_TYPE_CLUTTER_MAP,
+    RHO_MESSAGE_TYPE_DIRECTION_SCAN,
     RHO_MESSAGE_TYPE_GHOST_MATRIX,
     RHO_MESSAGE_TYPE_HYPOTHESES,
     RHO_MESSAGE_TYPE_LIFE,
@@ -266,6 +268,36 @@ RHO_MUST_CHECK enum rho_status rho_message_command_decode(
 RHO_MUST_CHECK enum rho_status rho_message_command_validate(
     const struct rho_message_command *message, struct rho_message_place *place);
 const char *rho_message_command_field(const struct rho_message_place *place);
+
+/*
+ * direction_t: one direction of a direction_scan_t: a bearing, and an elevation where one is
+ * measured.
+ */
+
+#define RHO_MESSAGE_DIRECTION_FINGERPRINT UINT64_C(0x4cdcf82c8a90b605)
+#define RHO_MESSAGE_DIRECTION_MAX_SIZE 25u
+
+struct rho_message_direction {
+    /* the direction's own time after the scan's utime, us; range -60000000 .. 60000000 */
+    int32_t dt_us;
+    /*
+     * bearing to the target, counter-clockwise from +x (east), rad; range -3.1415927 .. 3.1415927
+     */
+    float bearing_rad;
+    /* elevation of the target, up from the horizontal, rad; range -1.5707964 .. 1.5707964 */
+    float elevation_rad;
+    /* signal-to-noise ratio, dB; passed on, not used; 0: not known; range -1000 .. 1000 */
+    float snr_db;
+    int8_t has_elevation; /* 1: the elevation is measured; 0: only the bearing is; range 0 .. 1 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_direction_encode(
+    const struct rho_message_direction *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_direction_decode(
+    const uint8_t *data, size_t size, struct rho_message_direction *message);
+RHO_MUST_CHECK enum rho_status rho_message_direction_validate(
+    const struct rho_message_direction *message, struct rho_message_place *place);
+const char *rho_message_direction_field(const struct rho_message_place *place);
 
 /*
  * echo_t: one echo of a clutter_map_t: an object that gave clutter plots again and again in its
@@ -1217,6 +1249,70 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_begin(
     const struct rho_message_clutter_map_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
     struct rho_message_writer *writer, const struct rho_message_echo *echoe);
+
+/*
+ * direction_scan_t: directions of one scan of one passive sensor, which may move. Channel
+ * RHO_DIRECTIONS_<sensor_id>.
+ */
+
+#define RHO_MESSAGE_DIRECTION_SCAN_CHANNEL "RHO_DIRECTIONS_" /* prefix: the sensor's number follows */
+#define RHO_MESSAGE_DIRECTION_SCAN_FINGERPRINT UINT64_C(0x73ea0ef7000f017b)
+#define RHO_MESSAGE_DIRECTION_SCAN_MAX_SIZE 1416u
+#define RHO_MESSAGE_DIRECTION_SCAN_MAX_DIRECTIONS 80
+
+struct rho_message_direction_scan {
+    /*
+     * time of measurement, us of the sensors' common clock; range -4000000000000000000 ..
+     * 4000000000000000000
+     */
+    int64_t utime;
+    int32_t scan; /* number of this scan, one more each; after 2147483647 comes -2147483648 */
+    int32_t epoch; /* the sender's boot number, another one after each restart */
+    int16_t sensor_id; /* number of the sensor, as in the channel's name */
+    float sensor_x_m; /* position of the sensor in this scan, east, m; range -2e6 .. 2e6 */
+    float sensor_y_m; /* position of the sensor in this scan, north, m; range -2e6 .. 2e6 */
+    float sensor_z_m; /* position of the sensor in this scan, up, m; range -2e6 .. 2e6 */
+    /* standard deviation of the bearings' noise, rad; 0: not stated; range 0 .. 0.5 */
+    float sigma_rad;
+    /* standard deviation of the elevations' noise, rad; 0: not stated; range 0 .. 0.5 */
+    float sigma_elevation_rad;
+    /*
+     * sector that was looked at, first edge of it counter-clockwise, rad from +x (east); range
+     * -6.2831855 .. 6.2831855
+     */
+    float sector_from_rad;
+    /* last edge of the sector; both edges 0: the whole circle; range -6.2831855 .. 6.2831855 */
+    float sector_to_rad;
+    int16_t num_directions; /* number of directions in the list */
+    struct rho_message_direction directions[RHO_MESSAGE_DIRECTION_SCAN_MAX_DIRECTIONS];
+};
+
+struct rho_message_direction_scan_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t sensor_id;
+    float sensor_x_m;
+    float sensor_y_m;
+    float sensor_z_m;
+    float sigma_rad;
+    float sigma_elevation_rad;
+    float sector_from_rad;
+    float sector_to_rad;
+};
+RHO_MUST_CHECK enum rho_status rho_message_direction_scan_encode(
+    const struct rho_message_direction_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_direction_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_direction_scan *message);
+RHO_MUST_CHECK enum rho_status rho_message_direction_scan_validate(
+    const struct rho_message_direction_scan *message, struct rho_message_place *place);
+const char *rho_message_direction_scan_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_direction_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_direction_scan_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_direction_scan_add(
+    struct rho_message_writer *writer, const struct rho_message_direction *direction);
 
 /*
  * ghost_matrix_t: the ghost matrix of the newest scans of two passive sensors, or a part of it.

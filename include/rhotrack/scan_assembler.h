@@ -85,8 +85,8 @@
  *            cuts short a scan of such an established sensor, nor makes it out of sequence while
  *            its parts are still coming.
  *
- * The channel tells which sensor sent a message: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n>,
- * with n the message's sensor_id. The reception clock counts microseconds from any epoch. It must
+ * The channel tells which sensor sent a message: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n> or
+ * RHO_DIRECTIONS_<n>, with n the message's sensor_id; the last two carry scans of one kind. The reception clock counts microseconds from any epoch. It must
  * go on, and should run as fast as the sensors' clocks do: a replay gives the times at which the
  * record was made.
  * The object holds no pointers: a memcpy is a snapshot.
@@ -120,7 +120,7 @@ RHO_BEGIN_C
 /* Noise of measurements whose message states none: above 0, within the limits of types.h. */
 struct rho_scan_assembler_noise {
     float sigma_m, sigma_mps; /* noise of Cartesian plots */
-    /* noise of polar plots */
+    /* noise of polar plots; the elevation's also that of directions */
     float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
     float sigma_rad; /* noise of bearings */
 };

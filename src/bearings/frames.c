@@ -80,7 +80,8 @@ static enum rho_status check_scan(const struct rho_frames *frames,
     }
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
         !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
-        !rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
+        !rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
+        !rho_is_coordinate(scan->z_m)) {
         return RHO_ERROR_VALUE;
     }
     return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
@@ -134,6 +135,7 @@ static void frame_add_scan(struct rho_frames *frames, const struct rho_bearing_s
     uint32_t count = scan->num_bearings < RHO_MAX_BEARINGS ? scan->num_bearings : RHO_MAX_BEARINGS;
     to->x_m = scan->x_m;
     to->y_m = scan->y_m;
+    to->z_m = scan->z_m;
     to->sensor = (uint16_t)hear_sensor(frames, scan);
     to->time_us = scan->time_us;
     to->sector_from_rad = scan->sector_from_rad;
@@ -244,6 +246,7 @@ int rho_frames_closed(const struct rho_frames *frames, struct rho_frame_view *vi
                                                        .sensor_id = sensor->sensor_id,
                                                        .x_m = from->x_m,
                                                        .y_m = from->y_m,
+                                                       .z_m = from->z_m,
                                                        .sector_from_rad = from->sector_from_rad,
                                                        .sector_to_rad = from->sector_to_rad,
                                                        .num_bearings = from->num_bearings,

@@ -74,6 +74,14 @@ static const struct member_name command_names[] = {
     {offsetof(struct rho_message_command, sigma_mps), "sigma_mps"},
 };
 
+static const struct member_name direction_names[] = {
+    {offsetof(struct rho_message_direction, dt_us), "dt_us"},
+    {offsetof(struct rho_message_direction, bearing_rad), "bearing_rad"},
+    {offsetof(struct rho_message_direction, elevation_rad), "elevation_rad"},
+    {offsetof(struct rho_message_direction, snr_db), "snr_db"},
+    {offsetof(struct rho_message_direction, has_elevation), "has_elevation"},
+};
+
 static const struct member_name echo_names[] = {
     {offsetof(struct rho_message_echo, sensor_id), "sensor_id"},
     {offsetof(struct rho_message_echo, hits), "hits"},
@@ -363,6 +371,22 @@ static const struct member_name clutter_map_names[] = {
     {offsetof(struct rho_message_clutter_map, echoes), "echoes"},
 };
 
+static const struct member_name direction_scan_names[] = {
+    {offsetof(struct rho_message_direction_scan, utime), "utime"},
+    {offsetof(struct rho_message_direction_scan, scan), "scan"},
+    {offsetof(struct rho_message_direction_scan, epoch), "epoch"},
+    {offsetof(struct rho_message_direction_scan, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_direction_scan, sensor_x_m), "sensor_x_m"},
+    {offsetof(struct rho_message_direction_scan, sensor_y_m), "sensor_y_m"},
+    {offsetof(struct rho_message_direction_scan, sensor_z_m), "sensor_z_m"},
+    {offsetof(struct rho_message_direction_scan, sigma_rad), "sigma_rad"},
+    {offsetof(struct rho_message_direction_scan, sigma_elevation_rad), "sigma_elevation_rad"},
+    {offsetof(struct rho_message_direction_scan, sector_from_rad), "sector_from_rad"},
+    {offsetof(struct rho_message_direction_scan, sector_to_rad), "sector_to_rad"},
+    {offsetof(struct rho_message_direction_scan, num_directions), "num_directions"},
+    {offsetof(struct rho_message_direction_scan, directions), "directions"},
+};
+
 static const struct member_name ghost_matrix_names[] = {
     {offsetof(struct rho_message_ghost_matrix, utime), "utime"},
     {offsetof(struct rho_message_ghost_matrix, scan), "scan"},
@@ -530,6 +554,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "body_t",
         "command_answer_t",
         "command_t",
+        "direction_t",
         "echo_t",
         "ghost_t",
         "hypothesis_t",
@@ -552,6 +577,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "bearing_scan_t",
         "body_list_t",
         "clutter_map_t",
+        "direction_scan_t",
         "ghost_matrix_t",
         "hypotheses_t",
         "life_t",
@@ -587,6 +613,11 @@ const char *rho_message_command_answer_field(const struct rho_message_place *pla
 const char *rho_message_command_field(const struct rho_message_place *place)
 {
     return place ? find_member_name(command_names, 13, place->offset) : "unknown";
+}
+
+const char *rho_message_direction_field(const struct rho_message_place *place)
+{
+    return place ? find_member_name(direction_names, 5, place->offset) : "unknown";
 }
 
 const char *rho_message_echo_field(const struct rho_message_place *place)
@@ -709,6 +740,14 @@ const char *rho_message_clutter_map_field(const struct rho_message_place *place)
         return find_member_name(echo_names, 10, place->offset);
     }
     return place ? find_member_name(clutter_map_names, 8, place->offset) : "unknown";
+}
+
+const char *rho_message_direction_scan_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find_member_name(direction_names, 5, place->offset);
+    }
+    return place ? find_member_name(direction_scan_names, 13, place->offset) : "unknown";
 }
 
 const char *rho_message_ghost_matrix_field(const struct rho_message_place *place)

@@ -100,6 +100,28 @@ static const struct message_rules command_rules = {
     {command_ints, command_floats, 3, 4},
     {0, 0, 0, 0}};
 
+static const struct message_run direction_runs[] = {
+    {offsetof(struct rho_message_direction, dt_us), 4, 4},
+    {offsetof(struct rho_message_direction, has_elevation), 1, 1},
+};
+static const struct message_int_rule direction_ints[] = {
+    {offsetof(struct rho_message_direction, dt_us), 4, 1, MESSAGE_RANGE, -60000000, 60000000},
+    {offsetof(struct rho_message_direction, has_elevation), 1, 1, MESSAGE_RANGE, 0, 1},
+};
+static const struct message_float_rule direction_floats[] = {
+    {offsetof(struct rho_message_direction, bearing_rad), 1, -3.1415927f, 3.1415927f},
+    {offsetof(struct rho_message_direction, elevation_rad), 1, -1.5707964f, 1.5707964f},
+    {offsetof(struct rho_message_direction, snr_db), 1, -1000.0f, 1000.0f},
+};
+static const struct message_format direction_format = {
+    RHO_MESSAGE_DIRECTION_FINGERPRINT,
+    {direction_runs, 2, 17}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules direction_rules = {
+    &direction_format,
+    {direction_ints, direction_floats, 2, 3},
+    {0, 0, 0, 0}};
+
 static const struct message_run echo_runs[] = {
     {offsetof(struct rho_message_echo, sensor_id), 2, 3},
     {offsetof(struct rho_message_echo, x_m), 4, 7},
@@ -607,6 +629,31 @@ static const struct message_rules clutter_map_rules = {
     {clutter_map_ints, 0, 4, 0},
     {echo_ints, echo_floats, 2, 4}};
 
+static const struct message_run direction_scan_runs[] = {
+    {offsetof(struct rho_message_direction_scan, utime), 8, 1},
+    {offsetof(struct rho_message_direction_scan, scan), 4, 2},
+    {offsetof(struct rho_message_direction_scan, sensor_id), 2, 1},
+    {offsetof(struct rho_message_direction_scan, sensor_x_m), 4, 7},
+};
+static const struct message_int_rule direction_scan_ints[] = {
+    {offsetof(struct rho_message_direction_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
+};
+static const struct message_float_rule direction_scan_floats[] = {
+    {offsetof(struct rho_message_direction_scan, sensor_x_m), 3, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_direction_scan, sigma_rad), 2, 0.0f, 0.5f},
+    {offsetof(struct rho_message_direction_scan, sector_from_rad), 2, -6.2831855f, 6.2831855f},
+};
+static const struct message_format direction_scan_format = {
+    RHO_MESSAGE_DIRECTION_SCAN_FINGERPRINT,
+    {direction_scan_runs, 4, 46}, {direction_runs, 2, 17},
+    offsetof(struct rho_message_direction_scan, num_directions),
+    offsetof(struct rho_message_direction_scan, directions),
+    sizeof(struct rho_message_direction), RHO_MESSAGE_DIRECTION_SCAN_MAX_DIRECTIONS};
+static const struct message_rules direction_scan_rules = {
+    &direction_scan_format,
+    {direction_scan_ints, direction_scan_floats, 1, 3},
+    {direction_ints, direction_floats, 2, 3}};
+
 static const struct message_run ghost_matrix_runs[] = {
     {offsetof(struct rho_message_ghost_matrix, utime), 8, 1},
     {offsetof(struct rho_message_ghost_matrix, scan), 4, 2},
@@ -926,6 +973,9 @@ typedef char body_list_head_fits[
 typedef char clutter_map_head_fits[
     offsetof(struct rho_message_clutter_map, num_parts) ==
     offsetof(struct rho_message_clutter_map_head, num_parts) ? 1 : -1];
+typedef char direction_scan_head_fits[
+    offsetof(struct rho_message_direction_scan, sector_to_rad) ==
+    offsetof(struct rho_message_direction_scan_head, sector_to_rad) ? 1 : -1];
 typedef char ghost_matrix_head_fits[
     offsetof(struct rho_message_ghost_matrix, num_parts) ==
     offsetof(struct rho_message_ghost_matrix_head, num_parts) ? 1 : -1];
@@ -970,6 +1020,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_BODY_FINGERPRINT,
         RHO_MESSAGE_COMMAND_ANSWER_FINGERPRINT,
         RHO_MESSAGE_COMMAND_FINGERPRINT,
+        RHO_MESSAGE_DIRECTION_FINGERPRINT,
         RHO_MESSAGE_ECHO_FINGERPRINT,
         RHO_MESSAGE_GHOST_FINGERPRINT,
         RHO_MESSAGE_HYPOTHESIS_FINGERPRINT,
@@ -992,6 +1043,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
         RHO_MESSAGE_BODY_LIST_FINGERPRINT,
         RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
+        RHO_MESSAGE_DIRECTION_SCAN_FINGERPRINT,
         RHO_MESSAGE_GHOST_MATRIX_FINGERPRINT,
         RHO_MESSAGE_HYPOTHESES_FINGERPRINT,
         RHO_MESSAGE_LIFE_FINGERPRINT,
@@ -1101,6 +1153,25 @@ enum rho_status rho_message_command_validate(
     const struct rho_message_command *message, struct rho_message_place *place)
 {
     return rho_message_validate(&command_rules, message, place);
+}
+
+enum rho_status rho_message_direction_encode(
+    const struct rho_message_direction *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
+{
+    return rho_message_encode(&direction_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_direction_decode(
+    const uint8_t *data, size_t size, struct rho_message_direction *message)
+{
+    return rho_message_decode(&direction_format, data, size, message);
+}
+
+enum rho_status rho_message_direction_validate(
+    const struct rho_message_direction *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&direction_rules, message, place);
 }
 
 enum rho_status rho_message_echo_encode(
@@ -1571,6 +1642,38 @@ enum rho_status rho_message_clutter_map_add(
     struct rho_message_writer *writer, const struct rho_message_echo *echoe)
 {
     return rho_message_add(&clutter_map_format, writer, echoe);
+}
+
+enum rho_status rho_message_direction_scan_encode(
+    const struct rho_message_direction_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
+{
+    return rho_message_encode(&direction_scan_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_direction_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_direction_scan *message)
+{
+    return rho_message_decode(&direction_scan_format, data, size, message);
+}
+
+enum rho_status rho_message_direction_scan_validate(
+    const struct rho_message_direction_scan *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&direction_scan_rules, message, place);
+}
+
+enum rho_status rho_message_direction_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_direction_scan_head *head)
+{
+    return rho_message_begin(&direction_scan_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_direction_scan_add(
+    struct rho_message_writer *writer, const struct rho_message_direction *direction)
+{
+    return rho_message_add(&direction_scan_format, writer, direction);
 }
 
 enum rho_status rho_message_ghost_matrix_encode(

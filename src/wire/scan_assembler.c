@@ -108,26 +108,33 @@ enum rho_status rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembl
 
 /* Messages */
 
-/*
- * Finds kind and sensor number in a channel's name: no sign but -, no leading zeros, within
- * int16_t. Returns 0 where the text is no such channel.
- */
-static int parse_channel(const char *channel, enum rho_scan_assembler_kind *kind,
-                         int16_t *sensor_id)
+/* The kind of the scan that a message of a kind carries. */
+static enum rho_scan_assembler_kind kind_of_scan(unsigned message_kind)
 {
-    static const char prefixes[RHO_NUM_SCAN_ASSEMBLER_KINDS][14] = {
+    return message_kind == SCAN_MESSAGE_DIRECTIONS ? RHO_SCAN_ASSEMBLER_BEARINGS
+                                                   : (enum rho_scan_assembler_kind)message_kind;
+}
+
+/*
+ * Finds the message's kind and sensor number in a channel's name: no sign but -, no leading zeros,
+ * within int16_t. Returns 0 where the text is no such channel.
+ */
+static int parse_channel(const char *channel, unsigned *message_kind, int16_t *sensor_id)
+{
+    static const char prefixes[NUM_SCAN_MESSAGES][16] = {
         [RHO_SCAN_ASSEMBLER_PLOTS] = RHO_MESSAGE_PLOT_SCAN_CHANNEL,
         [RHO_SCAN_ASSEMBLER_POLAR] = RHO_MESSAGE_POLAR_SCAN_CHANNEL,
         [RHO_SCAN_ASSEMBLER_BEARINGS] = RHO_MESSAGE_BEARING_SCAN_CHANNEL,
+        [SCAN_MESSAGE_DIRECTIONS] = RHO_MESSAGE_DIRECTION_SCAN_CHANNEL,
     };
     const char *digits = NULL;
-    for (unsigned i = 0; i < RHO_NUM_SCAN_ASSEMBLER_KINDS && !digits; i++) {
+    for (unsigned i = 0; i < NUM_SCAN_MESSAGES && !digits; i++) {
         unsigned length = 0;
         while (prefixes[i][length] != '\0' && channel[length] == prefixes[i][length]) {
             length++;
         }
-        if (prefixes[i][length] == '\0' && RHO_SCAN_ASSEMBLER_HAS(i)) {
-            *kind = (enum rho_scan_assembler_kind)i;
+        if (prefixes[i][length] == '\0' && RHO_SCAN_ASSEMBLER_HAS(kind_of_scan(i))) {
+            *message_kind = i;
             digits = channel + length;
         }
     }
@@ -336,7 +343,7 @@ static int take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count,
 enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, const char *channel,
                                         const uint8_t *data, size_t size, int64_t now_us)
 {
-    enum rho_scan_assembler_kind kind;
+    unsigned message_kind;
     int16_t sensor_id;
     if (!assembler || !channel || !data) {
         return RHO_ERROR_NULL;
@@ -344,7 +351,7 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
     if (assembler->magic != SCAN_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    if (!parse_channel(channel, &kind, &sensor_id)) {
+    if (!parse_channel(channel, &message_kind, &sensor_id)) {
         return RHO_ERROR_TYPE;
     }
     const struct rho_scan_assembler_config *config = &assembler->config;
@@ -357,6 +364,7 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
         rho_scan_increment(&counters->messages_not_allowed);
         return RHO_OK;
     }
+    const enum rho_scan_assembler_kind kind = kind_of_scan(message_kind);
     struct rho_scan_assembler_source *source = NULL;
     for (unsigned i = 0; i < RHO_MAX_SENSORS && !source; i++) {
         struct rho_scan_assembler_source *at = &assembler->sources[i];
@@ -372,7 +380,8 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
     }
     union scan_message message;
     struct scan_heading heading;
-    enum rho_status status = rho_scan_decode(assembler, kind, data, size, &message, &heading);
+    enum rho_status status =
+        rho_scan_decode(assembler, message_kind, data, size, &message, &heading);
     if (status != RHO_OK || heading.sensor_id != sensor_id) {
         rho_scan_increment(status == RHO_ERROR_TYPE ? &counters->messages_wrong_type
                                                     : &counters->messages_bad);

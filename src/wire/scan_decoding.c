@@ -46,6 +46,36 @@ static struct scan_heading heading_of_polar_plots(const struct rho_message_polar
     };
 }
 
+static struct scan_heading heading_of_bearings(const struct rho_message_bearing_scan *scan)
+{
+    return (struct scan_heading){
+        .place = {scan->utime, scan->scan, scan->epoch},
+        .x_m = scan->sensor_x_m,
+        .y_m = scan->sensor_y_m,
+        .num_parts = 1,
+        .num_inputs = (uint16_t)scan->num_bearings,
+        .sensor_id = scan->sensor_id,
+        .kind = RHO_SCAN_ASSEMBLER_BEARINGS,
+    };
+}
+
+static struct scan_heading heading_of_directions(const struct rho_message_direction_scan *scan)
+{
+    return (struct scan_heading){
+        .place = {scan->utime, scan->scan, scan->epoch},
+        .sector_from_rad = scan->sector_from_rad,
+        .sector_to_rad = scan->sector_to_rad,
+        .x_m = scan->sensor_x_m,
+        .y_m = scan->sensor_y_m,
+        .z_m = scan->sensor_z_m,
+        .num_parts = 1,
+        .num_inputs = (uint16_t)scan->num_directions,
+        .sensor_id = scan->sensor_id,
+        .kind = RHO_SCAN_ASSEMBLER_BEARINGS,
+        .has_directions = 1,
+    };
+}
+
 const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_assembler *assembler,
                                                         int32_t sensor_id)
 {
@@ -57,27 +87,25 @@ const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_as
     return &assembler->config.other;
 }
 
-enum rho_status rho_scan_decode(const struct rho_scan_assembler *assembler,
-                                enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
-                                union scan_message *message, struct scan_heading *heading)
+enum rho_status rho_scan_decode(const struct rho_scan_assembler *assembler, unsigned message_kind,
+                                const uint8_t *data, size_t size, union scan_message *message,
+                                struct scan_heading *heading)
 {
     enum rho_status status;
-    if (RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        const struct rho_message_bearing_scan *scan = &message->bearings;
+    if (RHO_SCAN_ASSEMBLER_HAS(RHO_SCAN_ASSEMBLER_BEARINGS) &&
+        message_kind == SCAN_MESSAGE_DIRECTIONS) {
+        status = rho_message_direction_scan_decode(data, size, &message->directions);
+        if (status == RHO_OK) {
+            status = rho_message_direction_scan_validate(&message->directions, NULL);
+            *heading = heading_of_directions(&message->directions);
+        }
+    } else if (RHO_SCAN_ASSEMBLER_IS(message_kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
         status = rho_message_bearing_scan_decode(data, size, &message->bearings);
         if (status == RHO_OK) {
-            status = rho_message_bearing_scan_validate(scan, NULL);
-            *heading = (struct scan_heading){
-                .place = {scan->utime, scan->scan, scan->epoch},
-                .x_m = scan->sensor_x_m,
-                .y_m = scan->sensor_y_m,
-                .num_parts = 1,
-                .num_inputs = (uint16_t)scan->num_bearings,
-                .sensor_id = scan->sensor_id,
-                .kind = RHO_SCAN_ASSEMBLER_BEARINGS,
-            };
+            status = rho_message_bearing_scan_validate(&message->bearings, NULL);
+            *heading = heading_of_bearings(&message->bearings);
         }
-    } else if (RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_PLOTS)) {
+    } else if (RHO_SCAN_ASSEMBLER_IS(message_kind, RHO_SCAN_ASSEMBLER_PLOTS)) {
         status = rho_message_plot_scan_decode(data, size, &message->plots);
         if (status == RHO_OK) {
             status = rho_message_plot_scan_validate(&message->plots, NULL);
@@ -166,6 +194,33 @@ static void convert_polar_plots(struct rho_plot *to, unsigned count,
     }
 }
 
+static void convert_bearings(struct rho_bearing *to, unsigned count,
+                             const union scan_message *message, const struct scan_heading *heading,
+                             const struct rho_scan_assembler_sensor *known)
+{
+    const struct rho_message_direction_scan *scan = &message->directions;
+    const float bias_rad = known->sensor.azimuth_bias_rad;
+    const float sigma_rad = heading->has_directions ? scan->sigma_rad : message->bearings.sigma_rad;
+    for (unsigned i = 0; i < count; i++) {
+        const struct rho_message_direction direction =
+            heading->has_directions
+                ? scan->directions[i]
+                : (struct rho_message_direction){.bearing_rad = message->bearings.bearing_rad[i]};
+        to[i] = (struct rho_bearing){
+            .offset_us = direction.dt_us,
+            .bearing_rad = bias_rad < 0.0f || bias_rad > 0.0f
+                               ? rho_angle_difference(direction.bearing_rad, bias_rad)
+                               : direction.bearing_rad,
+            .sigma_rad = stated_sigma(sigma_rad, known->noise.sigma_rad, heading->is_new),
+            .snr_db = direction.snr_db};
+        if (direction.has_elevation) {
+            to[i].elevation_rad = direction.elevation_rad;
+            to[i].sigma_elevation_rad = stated_sigma(
+                scan->sigma_elevation_rad, known->noise.sigma_elevation_rad, heading->is_new);
+        }
+    }
+}
+
 void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
                                struct rho_scan_assembler_slot *slot,
                                const struct scan_heading *heading,
@@ -185,17 +240,7 @@ void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
     count = count < room - at ? count : room - at;
     behind = behind < room - at - count ? behind : room - at - count;
     if (is_bearings) {
-        const struct rho_message_bearing_scan *scan = &message->bearings;
-        const float bias_rad = known->sensor.azimuth_bias_rad;
-        for (unsigned i = 0; i < count; i++) {
-            const float bearing_rad = scan->bearing_rad[i];
-            slot->bearings[at + i] = (struct rho_bearing){
-                .bearing_rad = bias_rad < 0.0f || bias_rad > 0.0f
-                                   ? rho_angle_difference(bearing_rad, bias_rad)
-                                   : bearing_rad,
-                .sigma_rad =
-                    stated_sigma(scan->sigma_rad, known->noise.sigma_rad, heading->is_new)};
-        }
+        convert_bearings(slot->bearings + at, count, message, heading, known);
         assembler->counters.bearings_in =
             rho_count(assembler->counters.bearings_in, heading->num_inputs);
     } else {

@@ -19,7 +19,11 @@ union scan_message {
     struct rho_message_plot_scan plots;
     struct rho_message_polar_scan polar;
     struct rho_message_bearing_scan bearings;
+    struct rho_message_direction_scan directions;
 };
+
+/* Kinds of messages: those of scans, and directions, whose scans are of bearings. */
+enum { SCAN_MESSAGE_DIRECTIONS = RHO_NUM_SCAN_ASSEMBLER_KINDS, NUM_SCAN_MESSAGES };
 
 /* Values of a message that do not depend on its kind: of its part, and of the scan of that part. */
 struct scan_heading {
@@ -30,9 +34,10 @@ struct scan_heading {
     uint16_t part, num_parts;
     uint16_t num_inputs;
     int16_t sensor_id;
-    uint8_t kind;   /* enum rho_scan_assembler_kind */
-    uint8_t is_new; /* 1: the sensor is a newcomer that the config does not name */
-    uint32_t check; /* checksum of the message's bytes; above CHECK_NOT_ADMITTED */
+    uint8_t kind;           /* enum rho_scan_assembler_kind */
+    uint8_t is_new;         /* 1: the sensor is a newcomer that the config does not name */
+    uint8_t has_directions; /* 1: bearings of a direction_scan_t */
+    uint32_t check;         /* checksum of the message's bytes; above CHECK_NOT_ADMITTED */
 };
 
 /* Classification of a scan by its number and time. */
@@ -212,11 +217,13 @@ void rho_slot_add_part(struct rho_scan_assembler *assembler, struct rho_scan_ass
 
 /*
  * Decodes and validates a message, and fills its heading, whose time is without the sensor's time
- * bias. Errors: those of the message's functions, VALUE (the time is beyond RHO_LIMIT_TIME_US).
+ * bias.
+ *   message_kind  enum rho_scan_assembler_kind, or SCAN_MESSAGE_DIRECTIONS
+ * Errors: those of the message's functions, VALUE (the time is beyond RHO_LIMIT_TIME_US).
  */
-enum rho_status rho_scan_decode(const struct rho_scan_assembler *assembler,
-                                enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
-                                union scan_message *message, struct scan_heading *heading);
+enum rho_status rho_scan_decode(const struct rho_scan_assembler *assembler, unsigned message_kind,
+                                const uint8_t *data, size_t size, union scan_message *message,
+                                struct scan_heading *heading);
 
 /* Inserts a part's plots or bearings in the order of parts; counts those beyond the slot's room. */
 void rho_slot_add_measurements(struct rho_scan_assembler *assembler,

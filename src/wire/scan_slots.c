@@ -379,6 +379,9 @@ static void fill_item(const struct rho_scan_assembler_slot *slot,
                                                    .sensor_id = slot->sensor.sensor_id,
                                                    .x_m = slot->sensor.x_m,
                                                    .y_m = slot->sensor.y_m,
+                                                   .z_m = slot->sensor.z_m,
+                                                   .sector_from_rad = slot->sector_from_rad,
+                                                   .sector_to_rad = slot->sector_to_rad,
                                                    .num_bearings = slot->num_inputs,
                                                    .bearings = slot->bearings};
     } else {

@@ -8,8 +8,8 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(body, BODY) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(setting_answer, SETTING_ANSWER) X(setting, SETTING) X(status, STATUS) X(track_life, TRACK_LIFE) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
-#define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(body_list, BODY_LIST, "RHO_BODIES") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(life, LIFE, "RHO_LIFE") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
+#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(body, BODY) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(direction, DIRECTION) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(setting_answer, SETTING_ANSWER) X(setting, SETTING) X(status, STATUS) X(track_life, TRACK_LIFE) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
+#define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(body_list, BODY_LIST, "RHO_BODIES") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(direction_scan, DIRECTION_SCAN, "RHO_DIRECTIONS_") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(life, LIFE, "RHO_LIFE") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
 #endif
 
 static const struct message_member MESSAGE_TABLE(accumulator_cell)[] = {
@@ -62,6 +62,14 @@ static const struct message_member MESSAGE_TABLE(command)[] = {
     {"vx_mps", offsetof(MESSAGE_STRUCT(command), vx_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
     {"vy_mps", offsetof(MESSAGE_STRUCT(command), vy_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
     {"sigma_mps", offsetof(MESSAGE_STRUCT(command), sigma_mps), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+};
+
+static const struct message_member MESSAGE_TABLE(direction)[] = {
+    {"dt_us", offsetof(MESSAGE_STRUCT(direction), dt_us), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(-60000000), .max = INT64_C(60000000)},
+    {"bearing_rad", offsetof(MESSAGE_STRUCT(direction), bearing_rad), 0, 4, 1, .is_float = true, .low = (float)(-3.1415927), .high = (float)(3.1415927)},
+    {"elevation_rad", offsetof(MESSAGE_STRUCT(direction), elevation_rad), 0, 4, 1, .is_float = true, .low = (float)(-1.5707964), .high = (float)(1.5707964)},
+    {"snr_db", offsetof(MESSAGE_STRUCT(direction), snr_db), 0, 4, 1, .is_float = true, .low = (float)(-1000), .high = (float)(1000)},
+    {"has_elevation", offsetof(MESSAGE_STRUCT(direction), has_elevation), 0, 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
 };
 
 static const struct message_member MESSAGE_TABLE(echo)[] = {
@@ -348,6 +356,20 @@ static const struct message_member MESSAGE_TABLE(clutter_map)[] = {
     {"num_parts", offsetof(MESSAGE_STRUCT(clutter_map), num_parts), MESSAGE_HEAD(clutter_map, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
 };
 
+static const struct message_member MESSAGE_TABLE(direction_scan)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(direction_scan), utime), MESSAGE_HEAD(direction_scan, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(direction_scan), scan), MESSAGE_HEAD(direction_scan, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(direction_scan), epoch), MESSAGE_HEAD(direction_scan, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"sensor_id", offsetof(MESSAGE_STRUCT(direction_scan), sensor_id), MESSAGE_HEAD(direction_scan, sensor_id), 2, 1, .rule = MEMBER_ANY},
+    {"sensor_x_m", offsetof(MESSAGE_STRUCT(direction_scan), sensor_x_m), MESSAGE_HEAD(direction_scan, sensor_x_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_y_m", offsetof(MESSAGE_STRUCT(direction_scan), sensor_y_m), MESSAGE_HEAD(direction_scan, sensor_y_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_z_m", offsetof(MESSAGE_STRUCT(direction_scan), sensor_z_m), MESSAGE_HEAD(direction_scan, sensor_z_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sigma_rad", offsetof(MESSAGE_STRUCT(direction_scan), sigma_rad), MESSAGE_HEAD(direction_scan, sigma_rad), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(0.5)},
+    {"sigma_elevation_rad", offsetof(MESSAGE_STRUCT(direction_scan), sigma_elevation_rad), MESSAGE_HEAD(direction_scan, sigma_elevation_rad), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(0.5)},
+    {"sector_from_rad", offsetof(MESSAGE_STRUCT(direction_scan), sector_from_rad), MESSAGE_HEAD(direction_scan, sector_from_rad), 4, 1, .is_float = true, .low = (float)(-6.2831855), .high = (float)(6.2831855)},
+    {"sector_to_rad", offsetof(MESSAGE_STRUCT(direction_scan), sector_to_rad), MESSAGE_HEAD(direction_scan, sector_to_rad), 4, 1, .is_float = true, .low = (float)(-6.2831855), .high = (float)(6.2831855)},
+};
+
 static const struct message_member MESSAGE_TABLE(ghost_matrix)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(ghost_matrix), utime), MESSAGE_HEAD(ghost_matrix, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(ghost_matrix), scan), MESSAGE_HEAD(ghost_matrix, scan), 4, 1, .rule = MEMBER_ANY},
@@ -489,6 +511,7 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"body_t", MESSAGE_TABLE(body), 14, sizeof(MESSAGE_STRUCT(body)), .element_members = NULL},
     {"command_answer_t", MESSAGE_TABLE(command_answer), 7, sizeof(MESSAGE_STRUCT(command_answer)), .element_members = NULL},
     {"command_t", MESSAGE_TABLE(command), 13, sizeof(MESSAGE_STRUCT(command)), .element_members = NULL},
+    {"direction_t", MESSAGE_TABLE(direction), 5, sizeof(MESSAGE_STRUCT(direction)), .element_members = NULL},
     {"echo_t", MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), .element_members = NULL},
     {"ghost_t", MESSAGE_TABLE(ghost), 6, sizeof(MESSAGE_STRUCT(ghost)), .element_members = NULL},
     {"hypothesis_t", MESSAGE_TABLE(hypothesis), 7, sizeof(MESSAGE_STRUCT(hypothesis)), .element_members = NULL},
@@ -519,6 +542,9 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"clutter_map_t", MESSAGE_TABLE(clutter_map), 6, sizeof(MESSAGE_STRUCT(clutter_map)),
      {"num_echoes", offsetof(MESSAGE_STRUCT(clutter_map), num_echoes), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(clutter_map), echoes), MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), 34, 40, MESSAGE_LIST_IS_POINTER},
+    {"direction_scan_t", MESSAGE_TABLE(direction_scan), 11, sizeof(MESSAGE_STRUCT(direction_scan)),
+     {"num_directions", offsetof(MESSAGE_STRUCT(direction_scan), num_directions), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(direction_scan), directions), MESSAGE_TABLE(direction), 5, sizeof(MESSAGE_STRUCT(direction)), 17, 80, MESSAGE_LIST_IS_POINTER},
     {"ghost_matrix_t", MESSAGE_TABLE(ghost_matrix), 16, sizeof(MESSAGE_STRUCT(ghost_matrix)),
      {"num_elements", offsetof(MESSAGE_STRUCT(ghost_matrix), num_elements), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(ghost_matrix), elements), MESSAGE_TABLE(ghost), 6, sizeof(MESSAGE_STRUCT(ghost)), 17, 78, MESSAGE_LIST_IS_POINTER},

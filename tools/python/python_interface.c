@@ -422,6 +422,7 @@ static struct program_row *write_rows_of_look(const struct rho_bearing_scan *loo
     set_sector(&common, look->sector_from_rad, look->sector_to_rad);
     common.sensor_x_m = look->x_m;
     common.sensor_y_m = look->y_m;
+    common.sensor_z_m = look->z_m != 0.0f ? look->z_m : NAN;
     for (uint32_t i = 0; i < look->num_bearings; i++) {
         const struct rho_bearing *bearing = &look->bearings[i];
 
@@ -429,6 +430,10 @@ static struct program_row *write_rows_of_look(const struct rho_bearing_scan *loo
         rows->t_s = us_to_seconds(look->time_us + bearing->offset_us);
         rows->bearing_rad = bearing->bearing_rad;
         rows->sigma_rad = bearing->sigma_rad;
+        if (bearing->sigma_elevation_rad > 0.0f) {
+            rows->elevation_rad = bearing->elevation_rad;
+            rows->sigma_elevation_rad = bearing->sigma_elevation_rad;
+        }
         rows++->snr_db = bearing->snr_db != 0.0f ? bearing->snr_db : NAN;
     }
     if (look_needs_time_row(look)) {
@@ -706,11 +711,13 @@ static void make_look_of_rows(const struct making *making, const struct program_
                                   .sensor_id = rows->sensor_id,
                                   .x_m = rows->sensor_x_m,
                                   .y_m = rows->sensor_y_m,
+                                  .z_m = value_or_default(rows->sensor_z_m, 0.0),
                                   .sector_from_rad = value_or_default(rows->sector_from_rad, 0.0),
                                   .sector_to_rad = value_or_default(rows->sector_to_rad, 0.0),
                                   .bearings = bearings};
-    if (!rho_is_coordinate(look->x_m) || !rho_is_coordinate(look->y_m)) {
-        fail_at_row(making, rows, "sensor_x_m and sensor_y_m are not a place");
+    if (!rho_is_coordinate(look->x_m) || !rho_is_coordinate(look->y_m) ||
+        !rho_is_coordinate(look->z_m)) {
+        fail_at_row(making, rows, "sensor_x_m, sensor_y_m and sensor_z_m are not a place");
     }
     for (uint32_t i = 0; i < count; i++) {
         if (!isnan(rows[i].bearing_rad)) {
@@ -723,8 +730,15 @@ static void make_look_of_rows(const struct making *making, const struct program_
                                      .bearing_rad = rows[i].bearing_rad,
                                      .sigma_rad = value_or_default(rows[i].sigma_rad, sigma_rad),
                                      .snr_db = value_or_default(rows[i].snr_db, 0.0)};
+            if (!isnan(rows[i].elevation_rad)) {
+                bearing->elevation_rad = rows[i].elevation_rad;
+                bearing->sigma_elevation_rad = value_or_default(
+                    rows[i].sigma_elevation_rad,
+                    sensor_value_or_general(making, rows->sensor_id, SENSOR_SIGMA_ELEVATION_RAD,
+                                            PARAMETER_SIGMA_ELEVATION_RAD));
+            }
             if (!rho_bearing_is_valid(bearing)) {
-                fail_at_row(making, &rows[i], "bearing_rad or sigma_rad is out of range");
+                fail_at_row(making, &rows[i], "a bearing, an elevation or a sigma is out of range");
             }
         }
     }

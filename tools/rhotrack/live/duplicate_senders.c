@@ -44,9 +44,9 @@ static bool parse_sensor_id(const char *text, int16_t *sensor_id)
 
 bool duplicate_senders_sensor_id(const char *channel, int16_t *sensor_id)
 {
-    static const char *const beginnings[] = {RHO_MESSAGE_POLAR_SCAN_CHANNEL,
-                                             RHO_MESSAGE_PLOT_SCAN_CHANNEL,
-                                             RHO_MESSAGE_BEARING_SCAN_CHANNEL};
+    static const char *const beginnings[] = {
+        RHO_MESSAGE_POLAR_SCAN_CHANNEL, RHO_MESSAGE_PLOT_SCAN_CHANNEL,
+        RHO_MESSAGE_BEARING_SCAN_CHANNEL, RHO_MESSAGE_DIRECTION_SCAN_CHANNEL};
 
     for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
         if (text_begins_with(channel, beginnings[i])) {

@@ -28,9 +28,9 @@ const char *column_name(enum column_id column)
 /* Name of a column in degrees that may replace the one in radians, or NULL. */
 static const char *name_in_degrees(enum column_id column)
 {
-    return column == COL_AZIMUTH_RAD     ? "azimuth_deg"
-           : column == COL_ELEVATION_RAD ? "elevation_deg"
-                                         : NULL;
+    return column == COL_AZIMUTH_RAD || column == COL_BEARING_RAD ? "azimuth_deg"
+           : column == COL_ELEVATION_RAD                          ? "elevation_deg"
+                                                                  : NULL;
 }
 
 /* Which columns a table has. */
@@ -41,9 +41,13 @@ struct columns columns_find(const struct table *table)
 
     for (int i = 0; i < NUM_COLUMN_IDS; i++) {
         columns.at[i] = table_find_column(table, column_names[i]);
-        if (columns.at[i] < 0 && name_in_degrees((enum column_id)i)) {
+        if (columns.at[i] < 0 && i != COL_BEARING_RAD && name_in_degrees((enum column_id)i)) {
             columns.at[i] = table_find_column(table, name_in_degrees((enum column_id)i));
         }
+    }
+    if (columns.at[COL_BEARING_RAD] < 0 && columns.at[COL_ELEVATION_RAD] >= 0 &&
+        columns.at[COL_RANGE_M] < 0 && columns.at[COL_X_M] < 0 && columns.at[COL_LAT_DEG] < 0) {
+        columns.at[COL_BEARING_RAD] = columns.at[COL_AZIMUTH_RAD];
     }
     return columns;
 }
@@ -88,13 +92,14 @@ void columns_refuse_two_units(const struct columns *columns, enum column_id angl
 bool columns_has_degrees(const struct columns *columns, enum column_id angle)
 {
     return columns->at[angle] >= 0 && name_in_degrees(angle) &&
-           strcmp(columns->table->names[columns->at[angle]], column_names[angle]) != 0;
+           strcmp(columns->table->names[columns->at[angle]], name_in_degrees(angle)) == 0;
 }
 
 double column_radians(enum column_id angle, double degrees)
 {
-    return angle == COL_AZIMUTH_RAD ? remainder(TURN / 4 - degrees * (TURN / 360), TURN)
-                                    : degrees * DEG_RAD;
+    return angle == COL_AZIMUTH_RAD || angle == COL_BEARING_RAD
+               ? remainder(TURN / 4 - degrees * (TURN / 360), TURN)
+               : degrees * DEG_RAD;
 }
 
 /* Other names and units. */

@@ -109,7 +109,10 @@ struct columns {
     int at[NUM_COLUMN_IDS]; /* index into the table's columns, -1 where it has no such column */
 };
 
-/* Finds all columns, an azimuth or elevation in degrees where there is none in radians. */
+/*
+ * Finds all columns, an azimuth or elevation in degrees where there is none in radians. Azimuth and
+ * elevation without a range are a bearing and its elevation.
+ */
 struct columns columns_find(const struct table *table);
 
 /*

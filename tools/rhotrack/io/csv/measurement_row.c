@@ -42,6 +42,7 @@ static void check_bearing_columns(struct columns *columns)
         }
     }
     columns_need_both(columns, COL_SECTOR_FROM_RAD, COL_SECTOR_TO_RAD);
+    columns_refuse_two_units(columns, COL_ELEVATION_RAD);
     (void)columns_need(columns, COL_T_S);
     (void)columns_need(columns, COL_SENSOR_ID);
     (void)columns_need(columns, COL_SENSOR_X_M);
@@ -233,16 +234,18 @@ static bool read_range(const struct row_reading *reading, float *range_m)
            (*range_m > 0.0f || row_refuse_cell(&reading->cells, COL_RANGE_M, "is not above 0"));
 }
 
-static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
+/* Reads an azimuth or bearing. */
+static bool read_azimuth(const struct row_reading *reading, enum column_id column,
+                         float *azimuth_rad)
 {
-    if (!columns_has_degrees(&reading->columns->in_file, COL_AZIMUTH_RAD)) {
-        return row_read_and_wrap_angle_rad(&reading->cells, COL_AZIMUTH_RAD, azimuth_rad);
+    if (!columns_has_degrees(&reading->columns->in_file, column)) {
+        return row_read_and_wrap_angle_rad(&reading->cells, column, azimuth_rad);
     }
-    if (!row_read_float(&reading->cells, COL_AZIMUTH_RAD, -(float)ROW_ANGLE_MAX,
-                        (float)ROW_ANGLE_MAX, azimuth_rad)) {
+    if (!row_read_float(&reading->cells, column, -(float)ROW_ANGLE_MAX, (float)ROW_ANGLE_MAX,
+                        azimuth_rad)) {
         return false;
     }
-    *azimuth_rad = (float)column_radians(COL_AZIMUTH_RAD, (double)*azimuth_rad);
+    *azimuth_rad = (float)column_radians(column, (double)*azimuth_rad);
     return true;
 }
 
@@ -265,6 +268,15 @@ static bool read_elevation(const struct row_reading *reading, uint32_t *measures
     return true;
 }
 
+static bool read_sigma_elevation(const struct row_reading *reading, int32_t sensor_id,
+                                 float *sigma_rad)
+{
+    return row_read_sigma_rad(&reading->cells, COL_SIGMA_ELEVATION_RAD,
+                              value_of_sensor(reading, sensor_id, SENSOR_SIGMA_ELEVATION_RAD,
+                                              PARAMETER_SIGMA_ELEVATION_RAD),
+                              sigma_rad);
+}
+
 static bool read_polar_sigmas(const struct row_reading *reading, int32_t sensor_id,
                               struct rho_polar_plot *polar)
 {
@@ -276,10 +288,7 @@ static bool read_polar_sigmas(const struct row_reading *reading, int32_t sensor_
                               value_of_sensor(reading, sensor_id, SENSOR_SIGMA_AZIMUTH_RAD,
                                               PARAMETER_SIGMA_AZIMUTH_RAD),
                               &polar->sigma_azimuth_rad) &&
-           row_read_sigma_rad(&reading->cells, COL_SIGMA_ELEVATION_RAD,
-                              value_of_sensor(reading, sensor_id, SENSOR_SIGMA_ELEVATION_RAD,
-                                              PARAMETER_SIGMA_ELEVATION_RAD),
-                              &polar->sigma_elevation_rad);
+           read_sigma_elevation(reading, sensor_id, &polar->sigma_elevation_rad);
 }
 
 /*
@@ -317,7 +326,8 @@ static bool read_polar_plot(const struct row_reading *reading, struct measuremen
     seen_from.time_bias_s = 0.0f; /* the time bias is subtracted from the scan's time instead */
     row->has_measurement = true;
     row->measures = 0;
-    if (!read_range(reading, &polar.range_m) || !read_azimuth(reading, &polar.azimuth_rad) ||
+    if (!read_range(reading, &polar.range_m) ||
+        !read_azimuth(reading, COL_AZIMUTH_RAD, &polar.azimuth_rad) ||
         !read_elevation(reading, &row->measures, &polar.elevation_rad) ||
         !read_polar_sigmas(reading, row->sensor_id, &polar) ||
         !convert_to_local_frame(reading, row, &row->measures, &polar) ||
@@ -391,9 +401,13 @@ static bool read_bearing(const struct row_reading *reading, struct measurement_r
                                                        SENSOR_AZIMUTH_BIAS_RAD, 0.0);
 
     row->has_measurement = true;
-    if (!row_read_and_wrap_angle_rad(check, COL_BEARING_RAD, &row->bearing.bearing_rad)) {
+    if (!read_azimuth(reading, COL_BEARING_RAD, &row->bearing.bearing_rad) ||
+        !read_elevation(reading, &row->measures, &row->bearing.elevation_rad) ||
+        ((row->measures & RHO_MEASURES_Z) &&
+         !read_sigma_elevation(reading, row->sensor_id, &row->bearing.sigma_elevation_rad))) {
         return false;
     }
+    row->measures = 0; /* of bearings each says itself whether it has an elevation */
     /* the time bias is subtracted from the scan's time instead */
     if (bias_rad < 0.0 || bias_rad > 0.0) {
         row->bearing.bearing_rad = rho_angle_difference(row->bearing.bearing_rad, (float)bias_rad);
@@ -411,12 +425,15 @@ static bool read_bearings_row(const struct row_reading *reading, struct measurem
 
     if (!row_read_position(check, COL_SENSOR_X_M, &row->sensor.x_m) ||
         !row_read_position(check, COL_SENSOR_Y_M, &row->sensor.y_m) ||
+        (row_has_cell(check, COL_SENSOR_Z_M) &&
+         !row_read_position(check, COL_SENSOR_Z_M, &row->sensor.z_m)) ||
         !row_read_sector(check, &row->sector_from_rad, &row->sector_to_rad)) {
         return false;
     }
     row->bias_us = parameters_time_bias_us(reading->parameters, row->sensor_id);
     return row_check_unbiased_time(check, row->time_us, row->bias_us) &&
-           (!row_has_cell(check, COL_BEARING_RAD) || read_bearing(reading, row));
+           ((!row_has_cell(check, COL_BEARING_RAD) && !row_has_cell(check, COL_ELEVATION_RAD)) ||
+            read_bearing(reading, row));
 }
 
 static bool has_plot(const struct row_check *check)

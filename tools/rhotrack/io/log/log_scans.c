@@ -31,7 +31,8 @@ unsigned log_scans_kinds(const char *path)
         if (text_begins_with(event.channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) ||
             text_begins_with(event.channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL)) {
             kinds |= LOG_HAS_PLOTS;
-        } else if (text_begins_with(event.channel, RHO_MESSAGE_BEARING_SCAN_CHANNEL)) {
+        } else if (text_begins_with(event.channel, RHO_MESSAGE_BEARING_SCAN_CHANNEL) ||
+                   text_begins_with(event.channel, RHO_MESSAGE_DIRECTION_SCAN_CHANNEL)) {
             kinds |= LOG_HAS_BEARINGS;
         }
     }
@@ -246,9 +247,9 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
         report_assembler_faults(path, &scans->assembler->counters, &losses);
     }
     if (scans->num_given == 0) {
-        fail(EXIT_USAGE, "%s: contains no scan of a sensor (channels %s<n>, %s<n>, %s<n>)", path,
-             RHO_MESSAGE_PLOT_SCAN_CHANNEL, RHO_MESSAGE_POLAR_SCAN_CHANNEL,
-             RHO_MESSAGE_BEARING_SCAN_CHANNEL);
+        fail(EXIT_USAGE, "%s: contains no scan of a sensor (channels %s<n>, %s<n>, %s<n>, %s<n>)",
+             path, RHO_MESSAGE_PLOT_SCAN_CHANNEL, RHO_MESSAGE_POLAR_SCAN_CHANNEL,
+             RHO_MESSAGE_BEARING_SCAN_CHANNEL, RHO_MESSAGE_DIRECTION_SCAN_CHANNEL);
     }
     log_scans_rewind(scans);
     return scans;

@@ -13,6 +13,7 @@ static bool has_scan_number(const uint8_t *data, size_t size)
     case RHO_MESSAGE_TYPE_PLOT_SCAN:
     case RHO_MESSAGE_TYPE_POLAR_SCAN:
     case RHO_MESSAGE_TYPE_BEARING_SCAN:
+    case RHO_MESSAGE_TYPE_DIRECTION_SCAN:
     case RHO_MESSAGE_TYPE_TRACK_LIST:
     case RHO_MESSAGE_TYPE_PEAK_LIST:
     case RHO_MESSAGE_TYPE_TRUTH_LIST:

@@ -109,7 +109,7 @@ static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffe
     for (size_t i = 0; i < part->count; i++) {
         message.plots[i] = message_plot_of(part, i);
     }
-    return encode_checked(&message, buffer, field);
+    return encode_checked_plot_scan(&message, buffer, field);
 }
 
 static void put_plot_cells(double *cells, const struct rho_message_plot *plot, int kind)
@@ -138,7 +138,7 @@ static enum rho_status decode_plot_scan_to_rows(const uint8_t *data, size_t size
 {
     struct rho_message_plot_scan message;
     double *cells;
-    const enum rho_status status = decode_checked(data, size, &message, field);
+    const enum rho_status status = decode_checked_plot_scan(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;

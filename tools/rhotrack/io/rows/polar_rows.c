@@ -117,7 +117,7 @@ static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const c
     for (size_t i = 0; i < part->count; i++) {
         message.polar_plots[i] = message_plot_of(part, i);
     }
-    return encode_checked(&message, buffer, field);
+    return encode_checked_polar_scan(&message, buffer, field);
 }
 
 /*
@@ -156,7 +156,7 @@ static enum rho_status decode_polar_scan_to_rows(const uint8_t *data, size_t siz
                                                  const char **field)
 {
     struct rho_message_polar_scan message;
-    const enum rho_status status = decode_checked(data, size, &message, field);
+    const enum rho_status status = decode_checked_polar_scan(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;

@@ -213,20 +213,21 @@ static bool check_newest_row_by_encoding(const struct reading *reading,
     const struct row *row = &rows->list[rows->count - 1];
     struct rows_scan scan = {.utime = row->time_us, .head = *row, .count = 1, .num_parts = 1};
     struct rows_part part = {.rows = rows, .scan = &scan, .first = rows->count - 1};
+    const struct rows_kind *kind = rows_kind_of_row(rows, row);
     uint8_t message[ROWS_MESSAGE_BYTES];
     char buffer[TABLE_TEXT_BYTES];
     const char *field = "a value";
     int column;
 
     part.count = rows_row_has_measurement(rows, row);
-    if (rows->kind->encode(&part, message, &field) > 0) {
+    if (kind->encode(&part, message, &field) > 0) {
         return true;
     }
     column = table_find_column(check->columns->table, field);
     return row_refuse(
         check, "%s%s%.40s is outside the range of a %s", field, column < 0 ? "" : " ",
         column < 0 ? "" : table_cell_text(check->columns->table, check->row, column, buffer),
-        rho_message_type_name(rows->kind->type));
+        rho_message_type_name(kind->type));
 }
 
 static struct scan_number scan_and_epoch_number_of_row(const struct reading *reading,

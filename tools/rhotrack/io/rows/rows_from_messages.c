@@ -47,7 +47,9 @@ const char *rows_from_messages_add(struct rows_collection *collection, const cha
                                    const uint8_t *data, size_t size,
                                    char reason[ROWS_FROM_MESSAGES_REASON_BYTES])
 {
-    const struct rows_kind *kind = collection->rows.kind;
+    const struct rows_kind *narrow = collection->rows.kind;
+    const struct rows_kind *kind =
+        narrow->wider && rows_kind_has_channel(narrow->wider, channel) ? narrow->wider : narrow;
     struct rows_message message = {.arrival = collection->count};
     size_t before = collection->rows.count;
     const char *field = "a value";

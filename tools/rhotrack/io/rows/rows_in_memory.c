@@ -87,6 +87,26 @@ bool rows_row_has_measurement(const struct rows *rows, const struct row *row)
     return false;
 }
 
+bool rows_is_cell_written(const struct rows_column *column, double cell)
+{
+    return !rows_is_cell_empty(cell) &&
+           (!(column->flags & COLUMN_NOT_ZERO) || !rows_is_plus_zero((float)cell));
+}
+
+const struct rows_kind *rows_kind_of_row(const struct rows *rows, const struct row *row)
+{
+    const struct rows_kind *kind = rows->kind;
+    const double *cells = rows_cells(rows, row);
+
+    for (int i = 0; kind->wider && i < kind->num_columns; i++) {
+        if ((kind->columns[i].flags & COLUMN_WIDER) &&
+            rows_is_cell_written(&kind->columns[i], cells[i])) {
+            return kind->wider;
+        }
+    }
+    return kind;
+}
+
 bool rows_is_cell_empty(double cell)
 {
     return isnan(cell);

@@ -31,7 +31,9 @@ enum rows_column_flag {
     COLUMN_ALWAYS = 1 << 9,      /* always written; other columns where a cell is not empty */
     COLUMN_NOT_ZERO = 1 << 10,   /* written where a cell is neither empty nor 0 */
     COLUMN_COVARIANCE = 1 << 11, /* written where covariances are requested */
-    COLUMN_ANGLE = 1 << 12       /* an angle, wrapped to half a turn either side */
+    COLUMN_ANGLE = 1 << 12,      /* an angle, wrapped to half a turn either side */
+    COLUMN_WIDER = 1 << 13,      /* only messages of the wider kind hold the column */
+    COLUMN_STAYS = 1 << 14       /* messages that are not wide have it equal in a sensor's scans */
 };
 
 struct rows_column {
@@ -128,6 +130,9 @@ struct rows_kind {
      */
     enum rho_status (*decode)(const uint8_t *data, size_t size, struct rows *rows,
                               struct rows_message *message, const char **field);
+
+    /* The same rows as messages with room for COLUMN_WIDER and rows' own times; NULL: none. */
+    const struct rows_kind *wider;
 };
 
 #define ROWS_MESSAGE_BYTES 1472
@@ -138,8 +143,11 @@ extern const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS];
 extern const struct rows_kind rows_kind_plots, rows_kind_polar, rows_kind_bearings, rows_kind_truth,
     rows_kind_tracks;
 
-/* The kind whose messages use this channel, or NULL. */
+/* The kind whose messages, or those of its wider kind, use this channel, or NULL. */
 const struct rows_kind *rows_kind_of_channel(const char *channel);
+
+/* Whether a channel is one of this very kind. */
+bool rows_kind_has_channel(const struct rows_kind *kind, const char *channel);
 
 /*
  * Name of a track's status, "confirmed" and so on; RHO_MESSAGE_TRACK_... are 1 .. ROWS_STATUS_MAX.
@@ -162,6 +170,12 @@ double *rows_cells(const struct rows *rows, const struct row *row);
 
 /* Whether the row has a plot, a bearing, a target or a track. */
 bool rows_row_has_measurement(const struct rows *rows, const struct row *row);
+
+/* Whether files are written with a column because of this cell. */
+bool rows_is_cell_written(const struct rows_column *column, double cell);
+
+/* The kind of message that holds the row: rows.kind, or the wider one. */
+const struct rows_kind *rows_kind_of_row(const struct rows *rows, const struct row *row);
 
 /* For the kinds. */
 
@@ -197,8 +211,8 @@ double *rows_add_message_row(struct rows *rows, const struct rows_message *messa
  * checks it, as rows_kind.decode says.
  */
 #define ROWS_CHECKED_CODEC(type)                                                                   \
-    static size_t encode_checked(const struct rho_message_##type *message, uint8_t *buffer,        \
-                                 const char **field)                                               \
+    static size_t encode_checked_##type(const struct rho_message_##type *message, uint8_t *buffer, \
+                                        const char **field)                                        \
     {                                                                                              \
         struct rho_message_place place;                                                            \
         size_t size = 0;                                                                           \
@@ -212,8 +226,8 @@ double *rows_add_message_row(struct rows *rows, const struct rows_message *messa
                    : 0;                                                                            \
     }                                                                                              \
                                                                                                    \
-    static enum rho_status decode_checked(const uint8_t *data, size_t size,                        \
-                                          struct rho_message_##type *message, const char **field)  \
+    static enum rho_status decode_checked_##type(                                                  \
+        const uint8_t *data, size_t size, struct rho_message_##type *message, const char **field)  \
     {                                                                                              \
         struct rho_message_place place;                                                            \
         enum rho_status status = rho_message_##type##_decode(data, size, message);                 \

@@ -30,14 +30,21 @@ static bool is_sensor_number(const char *text)
     return strcmp(again, text) == 0;
 }
 
+bool rows_kind_has_channel(const struct rows_kind *kind, const char *channel)
+{
+    const size_t length = strlen(kind->channel);
+
+    return strncmp(channel, kind->channel, length) == 0 &&
+           (kind->has_sensor ? is_sensor_number(channel + length) : channel[length] == '\0');
+}
+
 const struct rows_kind *rows_kind_of_channel(const char *channel)
 {
     for (int i = 0; i < NUM_ROWS_KINDS; i++) {
         const struct rows_kind *kind = rows_kinds[i];
-        size_t length = strlen(kind->channel);
 
-        if (strncmp(channel, kind->channel, length) == 0 &&
-            (kind->has_sensor ? is_sensor_number(channel + length) : channel[length] == '\0')) {
+        if (rows_kind_has_channel(kind, channel) ||
+            (kind->wider && rows_kind_has_channel(kind->wider, channel))) {
             return kind;
         }
     }

@@ -7,14 +7,6 @@
 #include "base/common.h"
 #include "io/csv/tracks_writer.h"
 
-static bool is_cell_written(const struct rows_column *column, double cell)
-{
-    if (rows_is_cell_empty(cell)) {
-        return false;
-    }
-    return !(column->flags & COLUMN_NOT_ZERO) || !rows_is_plus_zero((float)cell);
-}
-
 static bool is_column_wanted(const struct rows *rows, int index, bool with_covariance)
 {
     const struct rows_column *column = &rows->kind->columns[index];
@@ -23,7 +15,7 @@ static bool is_column_wanted(const struct rows *rows, int index, bool with_covar
         return (column->flags & COLUMN_ALWAYS) || with_covariance;
     }
     for (size_t i = 0; i < rows->count; i++) {
-        if (is_cell_written(column, rows_cells(rows, &rows->list[i])[index])) {
+        if (rows_is_cell_written(column, rows_cells(rows, &rows->list[i])[index])) {
             return true;
         }
     }

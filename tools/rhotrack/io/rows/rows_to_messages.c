@@ -233,6 +233,30 @@ static int64_t scan_time_us(const struct scan_grouping *grouping, size_t first, 
     return grouping->rows[first].time_us;
 }
 
+/*
+ * The kind of messages that hold all scans of the file: the wider one where a row needs it or has a
+ * time of its own, or a sensor moves.
+ */
+static const struct rows_kind *kind_of_messages(const struct scan_grouping *grouping)
+{
+    const struct rows *rows = &grouping->file->rows;
+    size_t first = 0;
+
+    for (size_t i = 0; grouping->kind->wider && i < rows->count; i++) {
+        const struct row *row = &grouping->rows[i], *before = &grouping->rows[i - (i > 0)];
+
+        first = i > first && joins_scan(grouping, first, i) ? first : i;
+        if (rows_kind_of_row(rows, row) != grouping->kind ||
+            row->time_us != grouping->rows[first].time_us ||
+            (row->sensor_id == before->sensor_id &&
+             find_differing_column(grouping, rows_cells(rows, row), rows_cells(rows, before),
+                                   COLUMN_STAYS))) {
+            return grouping->kind->wider;
+        }
+    }
+    return grouping->kind;
+}
+
 /* Number of rows, from the first of the rest of a scan on, that fit one message. */
 static size_t rows_that_fit(const struct rows_kind *kind, const struct rows_part *rest)
 {
@@ -350,6 +374,7 @@ void rows_to_messages_make_scans(struct rows_to_messages *scans, struct rows_fil
     if (!grouping.kind->has_sensor && !file->has_scan) {
         find_repeated_ids(&grouping);
     }
+    file->rows.kind = grouping.kind = kind_of_messages(&grouping);
     for (size_t first = 0, end; first < file->rows.count; first = end) {
         for (end = first + 1; end < file->rows.count && joins_scan(&grouping, first, end); end++) {
         }

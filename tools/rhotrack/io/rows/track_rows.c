@@ -183,7 +183,7 @@ static size_t encode_track_list_part(const struct rows_part *part, uint8_t *buff
     for (size_t i = 0; i < part->count; i++) {
         message.tracks[i] = message_track_of(rows_part_cells(part, i));
     }
-    return encode_checked(&message, buffer, field);
+    return encode_checked_track_list(&message, buffer, field);
 }
 
 /*
@@ -235,7 +235,7 @@ static enum rho_status decode_track_list_to_rows(const uint8_t *data, size_t siz
                                                  const char **field)
 {
     struct rho_message_track_list message;
-    const enum rho_status status = decode_checked(data, size, &message, field);
+    const enum rho_status status = decode_checked_track_list(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;

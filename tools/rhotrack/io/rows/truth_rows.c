@@ -46,7 +46,7 @@ static size_t encode_truth_part(const struct rows_part *part, uint8_t *buffer, c
     for (size_t i = 0; i < part->count; i++) {
         message.targets[i] = message_target_of(rows_part_cells(part, i));
     }
-    return encode_checked(&message, buffer, field);
+    return encode_checked_truth_list(&message, buffer, field);
 }
 
 static void put_target_cells(double *cells, const struct rho_message_truth *target)
@@ -65,7 +65,7 @@ static enum rho_status decode_truth_list_to_rows(const uint8_t *data, size_t siz
                                                  const char **field)
 {
     struct rho_message_truth_list message;
-    const enum rho_status status = decode_checked(data, size, &message, field);
+    const enum rho_status status = decode_checked_truth_list(data, size, &message, field);
 
     if (status != RHO_OK) {
         return status;

@@ -232,6 +232,7 @@ static void fill_bearing_scan(struct sensor_scan *out, const struct gathered_sca
                                              .sensor_id = scan->sensor_id,
                                              .x_m = scan->sensor.x_m,
                                              .y_m = scan->sensor.y_m,
+                                             .z_m = scan->sensor.z_m,
                                              .sector_from_rad = scan->sector_from_rad,
                                              .sector_to_rad = scan->sector_to_rad,
                                              .num_bearings = (uint32_t)scan->count,

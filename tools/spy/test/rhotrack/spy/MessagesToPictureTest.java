@@ -18,6 +18,8 @@ import rhotrack.bearing_scan_t;
 import rhotrack.body_list_t;
 import rhotrack.body_t;
 import rhotrack.clutter_map_t;
+import rhotrack.direction_scan_t;
+import rhotrack.direction_t;
 import rhotrack.echo_t;
 import rhotrack.ghost_matrix_t;
 import rhotrack.ghost_t;
@@ -106,6 +108,19 @@ final class MessagesToPictureTest {
         scan.sensor_id = 2;
         scan.num_bearings = 2;
         scan.bearing_rad = new float[] {1, -2};
+        return scan;
+    }
+
+    private static direction_scan_t directions() {
+        direction_t direction = new direction_t();
+        direction.bearing_rad = -1;
+        direction.elevation_rad = 0.5f;
+        direction.has_elevation = 1;
+        direction_scan_t scan = new direction_scan_t();
+        scan.sensor_id = 4;
+        scan.sensor_y_m = 50;
+        scan.num_directions = 1;
+        scan.directions = new direction_t[] {direction};
         return scan;
     }
 
@@ -502,6 +517,10 @@ final class MessagesToPictureTest {
         check.equal("tracks", DisplayedTrack.Status.COASTING, scene.tracks().get(0).status());
         check.near("ellipse", 30, scene.tracks().get(0).ellipse().major());
         check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
+        decoder.decode("RHO_DIRECTIONS_4", bytes(directions()));
+        check.equal("directions", List.of(new Scene.Bearings(4, new LocalPoint(0, 50),
+                List.of(-1.0))), model.scene().bearings().stream().map(b -> b.content())
+                .filter(b -> b.sensorId() == 4).toList());
         check.near("peaks", -300, scene.peaks().get(0).content().peaks().get(0).rho());
         check.equal("counters stay at their limit", Integer.MAX_VALUE,
                 scene.health().status().bad());
@@ -571,6 +590,7 @@ final class MessagesToPictureTest {
         infinite.bearing_rad[0] = Float.POSITIVE_INFINITY;
         decoder.decode("RHO_BEARINGS_2", bytes(infinite));
         decoder.decode("RHO_BEARINGS_12", bytes(bearings())); // a sensor on another one's channel
+        decoder.decode("RHO_DIRECTIONS_14", bytes(directions()));
         decoder.decode("RHO_CLUTTER", bytes(echoes(1, 0, 1, Float.NaN)));
         clutter_map_t sure = echoes(1, 0, 1, 300);
         sure.echoes[0].chance = 1.5f;
@@ -581,7 +601,7 @@ final class MessagesToPictureTest {
         check.equal("nothing learned", List.of(), model.scene().health().sensorFaults());
         check.equal("no work", null, model.scene().health().work());
         check.equal("no echoes", List.of(), model.scene().echoes());
-        check.equal("all refused", 15L, model.scene().health().ignored());
+        check.equal("all refused", 16L, model.scene().health().ignored());
         check.equal("nothing shown", 0, model.scene().tracks().size());
         track_list_t vague = trackList(1, track_t.CONFIRMED);
         vague.tracks[0].covariance[0] = Float.NaN;
@@ -595,7 +615,7 @@ final class MessagesToPictureTest {
         Model model = new Model();
         MessageDecoder decoder = new MessageDecoder(model);
         byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)),
-            bytes(bearings()), bytes(peaks()), bytes(new status_t()),
+            bytes(bearings()), bytes(directions()), bytes(peaks()), bytes(new status_t()),
             bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3)),
             bytes(learned(3, 2, 1, 0.6)), bytes(ghosts(1, 0, 1, ghost_t.ROW)),
             bytes(search(1, 7, 12)), bytes(plane(1, 0, 4, 127)), bytes(hypotheses(12, 0.7f)),

@@ -14,6 +14,7 @@ import rhotrack.bearing_scan_t;
 import rhotrack.body_list_t;
 import rhotrack.body_t;
 import rhotrack.clutter_map_t;
+import rhotrack.direction_scan_t;
 import rhotrack.echo_t;
 import rhotrack.ghost_matrix_t;
 import rhotrack.ghost_t;
@@ -55,6 +56,7 @@ public final class MessageDecoder {
         return fingerprint == plot_scan_t.LCM_FINGERPRINT
                 || fingerprint == polar_scan_t.LCM_FINGERPRINT
                 || fingerprint == bearing_scan_t.LCM_FINGERPRINT
+                || fingerprint == direction_scan_t.LCM_FINGERPRINT
                 || fingerprint == track_list_t.LCM_FINGERPRINT
                 || fingerprint == truth_list_t.LCM_FINGERPRINT
                 || fingerprint == peak_list_t.LCM_FINGERPRINT
@@ -95,6 +97,9 @@ public final class MessageDecoder {
         }
         if (fingerprint == bearing_scan_t.LCM_FINGERPRINT) {
             return storeIfValid(channel, new bearing_scan_t(in), in);
+        }
+        if (fingerprint == direction_scan_t.LCM_FINGERPRINT) {
+            return storeIfValid(channel, new direction_scan_t(in), in);
         }
         if (fingerprint == track_list_t.LCM_FINGERPRINT) {
             return storeIfValid(new track_list_t(in), in);
@@ -183,20 +188,43 @@ public final class MessageDecoder {
 
     private boolean storeIfValid(String channel, bearing_scan_t scan, DataInputStream in)
             throws IOException {
-        LocalPoint sensor = new LocalPoint(scan.sensor_x_m, scan.sensor_y_m);
-        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD
-                || !sensor.isWithinLimits() || !endsWithSensorId(scan.sensor_id, channel)) {
+        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD) {
             return false;
         }
         List<Double> angles = new ArrayList<>();
         for (float angle : scan.bearing_rad) {
+            angles.add((double) angle);
+        }
+        LocalPoint sensor = new LocalPoint(scan.sensor_x_m, scan.sensor_y_m);
+        return storeIfValid(channel, scan.epoch, scan.scan,
+                new Scene.Bearings(scan.sensor_id, sensor, angles));
+    }
+
+    private boolean storeIfValid(String channel, direction_scan_t scan, DataInputStream in)
+            throws IOException {
+        if (in.available() > 0 || scan.num_directions > direction_scan_t.MAX_DIRECTIONS) {
+            return false;
+        }
+        List<Double> angles = new ArrayList<>();
+        for (rhotrack.direction_t direction : scan.directions) {
+            angles.add((double) direction.bearing_rad);
+        }
+        LocalPoint sensor = new LocalPoint(scan.sensor_x_m, scan.sensor_y_m);
+        return storeIfValid(channel, scan.epoch, scan.scan,
+                new Scene.Bearings(scan.sensor_id, sensor, angles));
+    }
+
+    private boolean storeIfValid(String channel, int epoch, int scan, Scene.Bearings bearings) {
+        if (!bearings.sensor().isWithinLimits()
+                || !endsWithSensorId(bearings.sensorId(), channel)) {
+            return false;
+        }
+        for (double angle : bearings.angles()) {
             if (!(Math.abs(angle) <= 4)) {
                 return false;
             }
-            angles.add((double) angle);
         }
-        model.addBearings(channel, scan.epoch, scan.scan,
-                new Scene.Bearings(scan.sensor_id, sensor, angles));
+        model.addBearings(channel, epoch, scan, bearings);
         return true;
     }
 
