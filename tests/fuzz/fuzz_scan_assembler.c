@@ -109,6 +109,7 @@ static void check_given_item(void)
         CHECK(item.bearings.num_bearings <= RHO_MAX_BEARINGS);
         for (unsigned i = 0; i < item.bearings.num_bearings; i++) {
             CHECK(rho_is_within(item.bearings.bearings[i].bearing_rad, -3.15f, 3.15f));
+            CHECK(rho_is_within(item.bearings.bearings[i].elevation_rad, -1.58f, 1.58f));
         }
     } else {
         CHECK(item.scan.num_plots <= RHO_MAX_PLOTS);
@@ -183,6 +184,7 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
     static struct rho_message_plot_scan plots;
     static struct rho_message_polar_scan polar;
     static struct rho_message_bearing_scan bearings;
+    static struct rho_message_direction_scan directions;
     int16_t parts = (int16_t)(1 + read_number(script, 1) % 4),
             part = (int16_t)(read_number(script, 1) % 5);
     int16_t count = (int16_t)(read_number(script, 1) % 35);
@@ -211,13 +213,27 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
             polar.polar_plots[i].range_m = (float)read_number(script, 1) * 100.0f;
         }
         (void)!rho_message_polar_scan_encode(&polar, buffer, capacity, &size);
-    } else {
+    } else if (kind == RHO_SCAN_ASSEMBLER_BEARINGS) {
         bearings = (struct rho_message_bearing_scan){.utime = sender->time_us,
                                                      .scan = sender->scan,
                                                      .epoch = sender->epoch,
                                                      .sensor_id = sensor_id,
                                                      .num_bearings = count};
         (void)!rho_message_bearing_scan_encode(&bearings, buffer, capacity, &size);
+    } else {
+        directions = (struct rho_message_direction_scan){
+            .utime = sender->time_us,
+            .scan = sender->scan,
+            .epoch = sender->epoch,
+            .sensor_id = sensor_id,
+            .sensor_z_m = (float)(read_number(script, 1) % 2),
+            .sigma_elevation_rad = (float)(read_number(script, 1) % 2) * 0.01f,
+            .num_directions = count};
+        for (int16_t i = 0; i < count; i++) {
+            directions.directions[i] = (struct rho_message_direction){
+                .dt_us = (int32_t)read_signed_number(script, 2), .has_elevation = i % 2};
+        }
+        (void)!rho_message_direction_scan_encode(&directions, buffer, capacity, &size);
     }
     return size;
 }
@@ -225,9 +241,10 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
 static void send_scripted_message(struct script *script, struct sender senders[SENSORS],
                                   int64_t now_us)
 {
-    static const char *const prefixes[] = {"RHO_PLOTS_", "RHO_POLAR_", "RHO_BEARINGS_"};
+    static const char *const prefixes[] = {"RHO_PLOTS_", "RHO_POLAR_", "RHO_BEARINGS_",
+                                           "RHO_DIRECTIONS_"};
     uint8_t what = (uint8_t)read_number(script, 1), buffer[1500];
-    unsigned kind = what % 3, sensor = what / 3 % SENSORS;
+    unsigned kind = what % 4, sensor = what / 4 % SENSORS;
     struct sender message;
     char channel[32];
     size_t size;

@@ -52,21 +52,28 @@ static size_t encode(int kind, uint8_t *buffer, size_t capacity)
         .polar_plots = {{.range_m = 100.0f, .azimuth_rad = 1.0f}, {.range_m = 9.0f}}};
     static const struct rho_message_bearing_scan bearings = {
         .sensor_id = 1, .sensor_x_m = 7.0f, .num_bearings = 2, .bearing_rad = {1.0f, -1.0f}};
+    static const struct rho_message_direction_scan directions = {
+        .sensor_id = 1,
+        .sensor_x_m = 7.0f,
+        .num_directions = 2,
+        .directions = {{.bearing_rad = 1.0f, .elevation_rad = 0.5f, .has_elevation = 1}}};
     size_t size = 0;
     enum rho_status status =
         kind == RHO_SCAN_ASSEMBLER_PLOTS
             ? rho_message_plot_scan_encode(&plots, buffer, capacity, &size)
         : kind == RHO_SCAN_ASSEMBLER_POLAR
             ? rho_message_polar_scan_encode(&polar, buffer, capacity, &size)
-            : rho_message_bearing_scan_encode(&bearings, buffer, capacity, &size);
+        : kind == RHO_SCAN_ASSEMBLER_BEARINGS
+            ? rho_message_bearing_scan_encode(&bearings, buffer, capacity, &size)
+            : rho_message_direction_scan_encode(&directions, buffer, capacity, &size);
     return status == RHO_OK ? size : 0;
 }
 
 static void print_assembled(int kind)
 {
-    static const char *const channels[] = {RHO_MESSAGE_PLOT_SCAN_CHANNEL "1",
-                                           RHO_MESSAGE_POLAR_SCAN_CHANNEL "1",
-                                           RHO_MESSAGE_BEARING_SCAN_CHANNEL "1"};
+    static const char *const channels[] = {
+        RHO_MESSAGE_PLOT_SCAN_CHANNEL "1", RHO_MESSAGE_POLAR_SCAN_CHANNEL "1",
+        RHO_MESSAGE_BEARING_SCAN_CHANNEL "1", RHO_MESSAGE_DIRECTION_SCAN_CHANNEL "1"};
     struct rho_scan_assembler_config config;
     struct rho_scan_assembler_item item;
     uint8_t buffer[256];
@@ -141,7 +148,7 @@ static void print_search(const char *name, float sigma_cross_m)
 
 int main(void)
 {
-    for (int kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
+    for (int kind = 0; kind < 4; kind++) {
         print_assembled(kind);
     }
     print_search("radar", 60.0f);

@@ -26,7 +26,7 @@ same_as_all() { # kinds, the lines' names as a pattern
 
 finds_both() {
     grep -q '^radar: ok 2 found' all && grep -q '^one axis: ok 2 found' all &&
-        [ "$(grep -c '^kind .: ok 2' all)" = 3 ]
+        [ "$(grep -c '^kind .: ok 2' all)" = 4 ]
 }
 
 lines 7 >all
@@ -34,9 +34,9 @@ check 'all kinds' finds_both
 check 'plots alone' same_as_all 1 'kind 0|one axis bytes'
 check 'polar plots alone' same_as_all 2 'kind 1'
 check 'plots and polar plots' same_as_all 3 'kind [01]|one axis bytes'
-check 'bearings alone' same_as_all 4 'kind 2'
-check 'plots and bearings' same_as_all 5 'kind [02]|one axis bytes'
-check 'polar plots and bearings' same_as_all 6 'kind [12]'
+check 'bearings alone' same_as_all 4 'kind [23]'
+check 'plots and bearings' same_as_all 5 'kind [023]|one axis bytes'
+check 'polar plots and bearings' same_as_all 6 'kind [123]'
 check 'kinds that do not exist' grep -q 'RHO_SCAN_KINDS_must_be_1_to_7' \
     <(${CC:-gcc} -std=c11 -I"$root/include" -DRHO_SCAN_KINDS=8 -fsyntax-only \
     "$root/src/wire/scan_assembler.c" 2>&1)

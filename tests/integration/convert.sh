@@ -308,10 +308,18 @@ refuse 'a radar in two places' "3: sensor_y_m differs from that of the scan's fi
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,5,1,0,0\n1,1,5,1,0,1\n'
 refuse 'two sigmas of bearings' "3: sigma_rad differs from that of the scan's other rows: *" \
     "${bearings}1,1,0,0,1,0.1\n1,1,0,0,1,0.2\n"
-refuse 'two times of bearings' "3: t_s differs from that of the scan's first row: *" \
-    "${bearings}1,1,0,0,1,0.1\n1.1,1,0,0,1,0.1\n" --set scan_interval_s=1
-refuse 'signals of bearings' '2: snr_db cannot be stored in a bearing_scan_t' \
-    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,snr_db\n1,1,0,0,1,9\n'
+directions='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,elevation_rad,'
+directions+='sigma_elevation_rad,sensor_z_m\n'
+refuse 'elevation beyond the zenith' '2: elevation_rad 1.6 is outside the range of a direction_scan_t' \
+    "${directions}1,1,0,0,1,,1.6,,\n"
+refuse 'elevation without a bearing' '2: the bearing is empty' "${directions}1,1,0,0,,,1,,\n"
+refuse 'two sigmas of elevations' "3: sigma_elevation_rad differs from that of the scan's other *" \
+    "${directions}1,1,0,0,1,,1,0.1,\n1,1,0,0,1,,1,0.2,\n"
+refuse 'a sensor at two heights' "3: sensor_z_m differs from that of the scan's first row" \
+    "${directions}1,1,0,0,1,,1,,5\n1,1,0,0,1,,1,,6\n"
+refuse 'more directions than a message has' \
+    '82: a scan has more than 80 rows, the limit of a message' \
+    "${directions}$(for i in $(seq 81); do printf '1,1,0,0,0.%03d,,1,,\n' "$i"; done)"
 refuse 'no bearing that is believed' '2: bearing_rad 4e6 is outside *' \
     "${bearings}1,1,0,0,4e6,0.1\n"
 refuse 'more bearings than a message has' \

@@ -156,6 +156,51 @@ static void sigma_comes_from_row_else_sensor_else_default(void **state)
     close_and_delete_files(&given);
 }
 
+static void elevations_and_heights_are_those_of_the_rows(void **state)
+{
+    struct given given =
+        given_file_with("t_s,sensor_id,sensor_x_m,sensor_y_m,sensor_z_m,bearing_rad,elevation_deg,"
+                        "sigma_elevation_rad\n5,1,-10,20,7,0.25,90,0.01\n5,1,-10,20,7,0.5,,0.01\n"
+                        "5,1,-10,20,7,0.75,-45,\n5,2,90,0,,1,0,\n");
+    const struct rho_bearing *bearings;
+    const struct rho_frame *frame;
+    (void)state;
+
+    given.parameters.value[PARAMETER_SIGMA_ELEVATION_RAD] = 0.25;
+    open_reader(&given, false);
+    frame = bearing_reader_next(given.reader);
+    bearings = frame->scans[0].bearings;
+    assert_true(frame->scans[0].z_m == 7.0f && frame->scans[1].z_m == 0.0f);
+    assert_float_equal(bearings[0].elevation_rad, 1.5707963, 1e-6);
+    assert_true(bearings[0].sigma_elevation_rad == 0.01f);
+    assert_true(bearings[1].bearing_rad == 0.5f && bearings[1].sigma_elevation_rad == 0.0f);
+    assert_float_equal(bearings[2].elevation_rad, -0.78539816, 1e-6);
+    assert_true(bearings[2].sigma_elevation_rad == 0.25f);
+    assert_true(frame->scans[1].bearings[0].elevation_rad == 0.0f);
+    assert_true(frame->scans[1].bearings[0].sigma_elevation_rad == 0.25f);
+    close_and_delete_files(&given);
+}
+
+static void azimuth_and_elevation_without_a_range_are_bearings(void **state)
+{
+    struct given given = given_file_with(
+        "t_s,sensor_id,sensor_x_m,sensor_y_m,azimuth_deg,elevation_rad\n5,1,0,0,90,0.5\n"
+        "5,2,90,0,0,-0.5\n");
+    const struct rho_frame *frame;
+    (void)state;
+
+    assert_true(bearing_reader_is_bearings(given.paths[0]));
+    open_reader(&given, false);
+    frame = bearing_reader_next(given.reader);
+    assert_float_equal(frame->scans[0].bearings[0].bearing_rad, 0.0, 1e-6);
+    assert_float_equal(frame->scans[1].bearings[0].bearing_rad, 1.5707963, 1e-6);
+    assert_true(frame->scans[0].bearings[0].elevation_rad == 0.5f);
+    close_and_delete_files(&given);
+    given = given_file_with("t_s,range_m,azimuth_deg,elevation_rad\n5,100,90,0.5\n");
+    assert_false(bearing_reader_is_bearings(given.paths[0]));
+    unlink(given.paths[0]);
+}
+
 static void rows_within_scan_interval_form_one_scan(void **state)
 {
     struct given given =
@@ -476,6 +521,8 @@ int main(void)
         cmocka_unit_test(scans_of_one_time_form_a_frame_sorted_by_sensor),
         cmocka_unit_test(a_frame_holds_the_values_of_its_rows),
         cmocka_unit_test(sigma_comes_from_row_else_sensor_else_default),
+        cmocka_unit_test(elevations_and_heights_are_those_of_the_rows),
+        cmocka_unit_test(azimuth_and_elevation_without_a_range_are_bearings),
         cmocka_unit_test(rows_within_scan_interval_form_one_scan),
         cmocka_unit_test(rows_of_numbered_scans_may_be_interleaved),
         cmocka_unit_test(scans_within_the_tolerance_form_one_frame),

@@ -202,8 +202,8 @@ static void add_sent_bearing_scan(int sensor_id, int32_t scan, int64_t utime)
         .scan = scan,
         .epoch = 5,
         .sensor_id = (int16_t)sensor_id,
-        .sensor_x_m = draw_float(2e6f),
-        .sensor_y_m = draw_float(2e6f),
+        .sensor_x_m = (float)sensor_id * 1e6f,
+        .sensor_y_m = 0.1f,
         .sigma_rad = draw_sigma(0.5f),
         .num_bearings = (int16_t)random_number_below(RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD + 1)};
 
@@ -211,6 +211,40 @@ static void add_sent_bearing_scan(int sensor_id, int32_t scan, int64_t utime)
         message.bearing_rad[i] = draw_float(3.1415927f);
     }
     ENCODE(bearing_scan, &message, add_sent_message("RHO_BEARINGS_", sensor_id, utime));
+}
+
+static void add_sent_direction_scan(int sensor_id, int32_t scan, int64_t utime)
+{
+    struct rho_message_direction_scan message = {
+        .utime = utime,
+        .scan = scan,
+        .epoch = 5,
+        .sensor_id = (int16_t)sensor_id,
+        .sensor_x_m = draw_float(2e6f),
+        .sensor_y_m = draw_float(2e6f),
+        .sensor_z_m = draw_float(2e6f),
+        .sigma_rad = draw_sigma(0.5f),
+        .sigma_elevation_rad = draw_sigma(0.5f),
+        .num_directions =
+            (int16_t)random_number_below(RHO_MESSAGE_DIRECTION_SCAN_MAX_DIRECTIONS + 1)};
+    int32_t dt_us = -(int32_t)random_number_below(2);
+
+    if (random_number_below(2)) {
+        message.sector_from_rad = draw_float(6.2831855f);
+        message.sector_to_rad = draw_float(6.2831855f);
+    }
+    for (int i = 0; i < message.num_directions; i++) {
+        const bool has_elevation = random_number_below(2);
+
+        message.directions[i] = (struct rho_message_direction){
+            .dt_us = dt_us,
+            .bearing_rad = draw_float(3.1415927f),
+            .elevation_rad = has_elevation ? draw_float(1.5707964f) : 0.0f,
+            .snr_db = draw_float(1000.0f),
+            .has_elevation = (int8_t)has_elevation};
+        dt_us += (int32_t)random_number_below(3);
+    }
+    ENCODE(direction_scan, &message, add_sent_message("RHO_DIRECTIONS_", sensor_id, utime));
 }
 
 static void add_sent_truth_list(int sensor_id, int32_t scan, int64_t utime)
@@ -376,6 +410,7 @@ static void bearings_survive_the_round_trip_through_csv(void **state)
 {
     (void)state;
     check_round_trip(ROWS_BEARINGS, add_sent_bearing_scan, false);
+    check_round_trip(ROWS_BEARINGS, add_sent_direction_scan, false);
 }
 
 static void truth_survives_the_round_trip_through_csv(void **state)
@@ -464,6 +499,27 @@ static void rows_of_one_time_form_a_scan(void **state)
     (void)state;
     assert_csv_gives(HEADER "1,4,1,1\n1,5,1,1\n1,4,1,1\n2,5,,\n2,4,1,1\n", 0.0,
                      "1000:4#1/1(2) 1000:5#1/1(1) 2000:5#2/1(0) 2000:4#2/1(1) ");
+}
+
+#define BEARINGS "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad"
+
+static void bearings_that_say_more_are_directions(void **state)
+{
+    (void)state;
+    assert_csv_gives(BEARINGS "\n1,4,0,0,1\n1,5,9,0,1\n2,4,0,0,\n", 1.0,
+                     "1000:RHO_BEARINGS_4 1000:RHO_BEARINGS_5 2000:RHO_BEARINGS_4 ");
+    assert_csv_gives(BEARINGS ",elevation_rad,sensor_z_m,sector_from_rad,sector_to_rad,snr_db\n"
+                              "1,4,0,0,1,,0,0,0,0\n",
+                     0.0, "1000:RHO_BEARINGS_4 ");
+    assert_csv_gives(BEARINGS ",elevation_rad\n1,4,0,0,1,\n2,4,0,0,1,0\n", 0.0,
+                     "1000:RHO_DIRECTIONS_4 2000:RHO_DIRECTIONS_4 ");
+    assert_csv_gives(BEARINGS ",sensor_z_m\n1,4,0,0,1,3\n", 0.0, "1000:RHO_DIRECTIONS_4 ");
+    assert_csv_gives(BEARINGS ",sector_from_rad,sector_to_rad\n1,4,0,0,1,0,2\n", 0.0,
+                     "1000:RHO_DIRECTIONS_4 ");
+    assert_csv_gives(BEARINGS ",snr_db\n1,4,0,0,1,-2\n", 0.0, "1000:RHO_DIRECTIONS_4 ");
+    assert_csv_gives(BEARINGS "\n1,4,0,0,1\n2,4,0,0.5,1\n", 0.0,
+                     "1000:RHO_DIRECTIONS_4 2000:RHO_DIRECTIONS_4 ");
+    assert_csv_gives(BEARINGS "\n1,4,0,0,1\n1.5,4,0,0,1\n", 1.0, "1000:RHO_DIRECTIONS_4 ");
 }
 
 static void rows_within_scan_interval_form_a_scan(void **state)
@@ -644,6 +700,8 @@ static void channel_names_tell_the_kind_of_rows(void **state)
     assert_ptr_equal(rows_kind_of_channel("RHO_PLOTS_0"), &rows_kind_plots);
     assert_ptr_equal(rows_kind_of_channel("RHO_POLAR_-32768"), &rows_kind_polar);
     assert_ptr_equal(rows_kind_of_channel("RHO_BEARINGS_32767"), &rows_kind_bearings);
+    assert_ptr_equal(rows_kind_of_channel("RHO_DIRECTIONS_7"), &rows_kind_bearings);
+    assert_null(rows_kind_of_channel("RHO_DIRECTIONS_07"));
     assert_ptr_equal(rows_kind_of_channel("RHO_TRUTH"), &rows_kind_truth);
     assert_ptr_equal(rows_kind_of_channel("RHO_TRACKS"), &rows_kind_tracks);
     assert_null(rows_kind_of_channel("RHO_PLOTS_"));
@@ -667,6 +725,7 @@ int main(void)
         cmocka_unit_test(tracks_survive_the_round_trip_through_csv),
         cmocka_unit_test(parts_in_any_order_are_written_in_the_right_order),
         cmocka_unit_test(rows_of_one_time_form_a_scan),
+        cmocka_unit_test(bearings_that_say_more_are_directions),
         cmocka_unit_test(rows_within_scan_interval_form_a_scan),
         cmocka_unit_test(rows_of_one_scan_number_form_a_scan),
         cmocka_unit_test(a_scan_number_used_again_later_is_another_scan),

@@ -45,7 +45,7 @@ static void two_senders_of_one_sensor_are_warned_of_once(void **state)
     (void)state;
     clear_senders();
     for (int i = 1; i < 100; i++) {
-        note_message("RHO_PLOTS_7", i % 3 ? 5001 : 5002, false, i);
+        note_message("RHO_DIRECTIONS_7", i % 3 ? 5001 : 5002, false, i);
         note_message("RHO_POLAR_8", 5001, false, i); /* this sensor has one sender only */
     }
     expect_lines(
@@ -63,7 +63,7 @@ static void names_that_are_no_sensor_channels_are_ignored(void **state)
 {
     static const char *const names[] = {"RHO_PLOTS_\033[2J", "RHO_PLOTS_",      "RHO_PLOTS_-",
                                         "RHO_PLOTS_7 ",      "RHO_POLAR_32768", "RHO_PLOTS_+7",
-                                        "RHO_PLOTS_000007",  "RHO_BEARINGS_7x"};
+                                        "RHO_PLOTS_000007",  "RHO_BEARINGS_7x", "RHO_DIRECTIONS_"};
 
     (void)state;
     clear_senders();

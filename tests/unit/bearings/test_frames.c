@@ -43,6 +43,7 @@ static struct rho_bearing_scan *make_scan(struct sent *sent, unsigned sensor, in
                                            .sensor_id = 40 - 10 * (int32_t)sensor,
                                            .x_m = 1000.0f * (float)sensor,
                                            .y_m = -5.0f,
+                                           .z_m = 10.0f * (float)sensor,
                                            .sector_from_rad = -0.5f,
                                            .sector_to_rad = 0.25f * (float)sensor,
                                            .num_bearings = num_bearings,
@@ -51,7 +52,9 @@ static struct rho_bearing_scan *make_scan(struct sent *sent, unsigned sensor, in
         sent->bearings[i] = (struct rho_bearing){.offset_us = (int32_t)i,
                                                  .bearing_rad = (float)(tag + i),
                                                  .sigma_rad = 0.01f,
-                                                 .snr_db = (float)sensor};
+                                                 .snr_db = (float)sensor,
+                                                 .elevation_rad = 0.5f,
+                                                 .sigma_elevation_rad = 0.02f};
     }
     return &sent->scan;
 }
@@ -124,6 +127,9 @@ static void a_frame_closes_with_its_last_sensor(void **state)
     assert_int_equal(scans[0].num_bearings, 1);
     assert_int_equal(scans[1].num_bearings, 2);
     assert_true(scans[0].x_m == 1000.0f && scans[0].y_m == -5.0f && scans[1].x_m == 0.0f);
+    assert_true(scans[0].z_m == 10.0f && scans[1].z_m == 0.0f);
+    assert_true(scans[0].bearings[0].elevation_rad == 0.5f);
+    assert_true(scans[0].bearings[0].sigma_elevation_rad == 0.02f);
     assert_true(scans[0].sector_from_rad == -0.5f && scans[0].sector_to_rad == 0.25f);
     assert_true(scans[0].bearings[0].bearing_rad == 200.0f);
     assert_true(scans[1].bearings[1].bearing_rad == 101.0f);

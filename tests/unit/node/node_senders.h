@@ -144,4 +144,26 @@ static inline void send_bearing(int16_t sensor_id, float y_m, int32_t scan, int6
     take_of_sensor(RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id, bytes, size);
 }
 
+/* The same bearing with an elevation, of a sensor 50 m up. */
+static inline void send_direction(int16_t sensor_id, float y_m, int32_t scan, int64_t time_us)
+{
+    static struct rho_message_direction_scan message;
+    uint8_t bytes[RHO_MESSAGE_DIRECTION_SCAN_MAX_SIZE];
+    size_t size;
+
+    message = (struct rho_message_direction_scan){.utime = time_us,
+                                                  .scan = scan,
+                                                  .sensor_id = sensor_id,
+                                                  .sensor_y_m = y_m,
+                                                  .sensor_z_m = 50.0f,
+                                                  .num_directions = 1};
+    message.directions[0] =
+        (struct rho_message_direction){.bearing_rad = atan2f(200.0f * (float)scan - y_m, 30000.0f),
+                                       .elevation_rad = 0.125f,
+                                       .has_elevation = 1};
+    assert_int_equal(rho_message_direction_scan_encode(&message, bytes, sizeof bytes, &size),
+                     RHO_OK);
+    take_of_sensor(RHO_MESSAGE_DIRECTION_SCAN_CHANNEL, sensor_id, bytes, size);
+}
+
 #endif

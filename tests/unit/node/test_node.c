@@ -555,6 +555,27 @@ static void frames_close_at_the_next_frame_or_by_timeout(void **state)
     assert_int_equal(node.tracker.num_sensors, 2);
 }
 
+/* Sensors of directions and of bearings share frames; noise that is not stated is the setting. */
+static void frames_hold_directions_beside_bearings(void **state)
+{
+    const struct rho_frames_slot *slot;
+
+    (void)state;
+    start_default_node();
+    for (int32_t k = 0; k < 2; k++, now_us += SECOND_US) {
+        send_bearing(1, 0.0f, k, now_us);
+        send_direction(2, 20000.0f, k, now_us);
+    }
+    slot = &node.frames.slots[node.frames.open ^ 1u];
+    assert_int_equal(slot->num_scans, 2);
+    assert_true(slot->scans[0].z_m == 0.0f && slot->scans[1].z_m == 50.0f);
+    assert_true(slot->scans[0].bearings[0].sigma_elevation_rad == 0.0f);
+    assert_true(slot->scans[1].bearings[0].elevation_rad == 0.125f);
+    assert_true(slot->scans[1].bearings[0].sigma_elevation_rad ==
+                node.assembler.config.other.noise.sigma_elevation_rad);
+    assert_int_equal(node.counters.bearings_refused, 0);
+}
+
 static void scans_wait_for_an_open_frame_of_bearings(void **state)
 {
     (void)state;
@@ -689,6 +710,7 @@ int main(void)
         cmocka_unit_test(a_restart_keeps_what_is_no_track),
         cmocka_unit_test(zones_count_on_over_a_restart),
         cmocka_unit_test(frames_close_at_the_next_frame_or_by_timeout),
+        cmocka_unit_test(frames_hold_directions_beside_bearings),
         cmocka_unit_test(scans_wait_for_an_open_frame_of_bearings),
         cmocka_unit_test(a_moving_passive_sensor_is_heard_from_everywhere),
         cmocka_unit_test(passive_sensors_have_the_range_of_the_initiation),

@@ -325,6 +325,91 @@ static void noise_of_bearings_comes_from_message_else_default(void **state)
     }
 }
 
+/* Two directions, one without an elevation, of a scan of sensor 3. */
+static size_t pack_directions(const struct rho_message_direction_scan_head *head)
+{
+    static const struct rho_message_direction directions[2] = {
+        {.dt_us = -7,
+         .bearing_rad = 1.0f,
+         .elevation_rad = -0.5f,
+         .snr_db = 11.0f,
+         .has_elevation = 1},
+        {.dt_us = 9, .bearing_rad = -3.14f, .elevation_rad = 0.25f}};
+    struct rho_message_writer writer;
+
+    assert_int_equal(rho_message_direction_scan_begin(&writer, buffer, sizeof buffer, head),
+                     RHO_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(rho_message_direction_scan_add(&writer, &directions[i]), RHO_OK);
+    }
+    return end_message(&writer);
+}
+
+static void directions_are_bearings_with_elevations_where_they_have_them(void **state)
+{
+    const struct rho_message_direction_scan_head head = {.utime = 4,
+                                                         .sensor_id = 3,
+                                                         .sensor_x_m = 10.0f,
+                                                         .sensor_y_m = 20.0f,
+                                                         .sensor_z_m = 30.0f,
+                                                         .sigma_rad = 0.25f,
+                                                         .sigma_elevation_rad = 0.125f,
+                                                         .sector_from_rad = -1.0f,
+                                                         .sector_to_rad = 2.0f};
+    struct rho_scan_assembler_sensor known = known_sensor();
+    const struct rho_bearing *bearings;
+
+    (void)state;
+    start_assembler();
+    known.sensor.sensor_id = 3;
+    known.sensor.azimuth_bias_rad = 0.02f;
+    known.sensor.time_bias_s = 0.25f;
+    set_known_sensor(&known);
+    assert_int_equal(take_bytes("RHO_DIRECTIONS_3", buffer, pack_directions(&head), 0), RHO_OK);
+    expect_next_scan(0, 3, 4 - KNOWN_BIAS_US);
+    bearings = item.bearings.bearings;
+    assert_int_equal(item.kind, RHO_SCAN_ASSEMBLER_BEARINGS);
+    assert_true(item.bearings.x_m == 10.0f && item.bearings.y_m == 20.0f);
+    assert_true(item.bearings.z_m == 30.0f && item.sensor.z_m == 30.0f);
+    assert_true(item.bearings.sector_from_rad == -1.0f && item.bearings.sector_to_rad == 2.0f);
+    assert_int_equal(item.bearings.num_bearings, 2);
+    assert_int_equal(bearings[0].offset_us, -7);
+    assert_int_equal(bearings[1].offset_us, 9);
+    assert_true(fabs(bearings[0].bearing_rad - 0.98) < 1e-6);
+    assert_true(fabs(bearings[1].bearing_rad - (2.0 * acos(-1.0) - 3.16)) < 1e-6);
+    assert_true(bearings[0].sigma_rad == 0.25f && bearings[1].sigma_rad == 0.25f);
+    assert_true(bearings[0].elevation_rad == -0.5f && bearings[0].sigma_elevation_rad == 0.125f);
+    assert_true(bearings[1].sigma_elevation_rad == 0.0f);
+    assert_true(bearings[0].snr_db == 11.0f && bearings[1].snr_db == 0.0f);
+    assert_int_equal(assembler.counters.bearings_in, 2);
+}
+
+/* Both kinds of messages are of one sensor, whose numbers go on. */
+static void directions_follow_bearings_of_their_sensor(void **state)
+{
+    struct look look = {.scan = 1, .sensor_id = 3, .kind = RHO_SCAN_ASSEMBLER_BEARINGS, .count = 1};
+    const struct rho_message_direction_scan_head head = {.utime = 9, .scan = 2, .sensor_id = 3};
+    size_t size;
+
+    (void)state;
+    start_assembler();
+    take_message(&look, 0);
+    expect_next_scan(0, 3, 0);
+    assert_true(item.bearings.bearings[0].sigma_elevation_rad == 0.0f);
+    size = pack_directions(&head);
+    assert_int_equal(take_bytes("RHO_BEARINGS_3", buffer, size, 0), RHO_OK);
+    assert_int_equal(assembler.counters.messages_wrong_type, 1);
+    assert_int_equal(take_bytes("RHO_DIRECTIONS_4", buffer, size, 0), RHO_OK);
+    assert_int_equal(assembler.counters.messages_bad, 1);
+    assert_int_equal(take_bytes("RHO_DIRECTIONS_3", buffer, size, 0), RHO_OK);
+    expect_next_scan(0, 3, 9);
+    assert_true(item.bearings.bearings[0].sigma_rad == 0.00175f);
+    assert_true(item.bearings.bearings[0].sigma_elevation_rad == 0.003f);
+    assert_int_equal(take_bytes("RHO_DIRECTIONS_3", buffer, size, 0), RHO_OK);
+    assert_int_equal(assembler.counters.scans_duplicate, 1);
+    assert_int_equal(assembler.counters.scans_accepted, 2);
+}
+
 /*
  * ---- clocks -----------------------------------------------------------------------------------
  */
@@ -409,6 +494,8 @@ int main(void)
         cmocka_unit_test(plots_without_a_place_keep_their_row_and_are_invalid),
         cmocka_unit_test(bearings_are_corrected_by_the_sensors_biases),
         cmocka_unit_test(noise_of_bearings_comes_from_message_else_default),
+        cmocka_unit_test(directions_are_bearings_with_elevations_where_they_have_them),
+        cmocka_unit_test(directions_follow_bearings_of_their_sensor),
         cmocka_unit_test(scans_are_sorted_by_time_without_clock_bias),
         cmocka_unit_test(a_scan_of_a_clock_ahead_waits_for_older_ones),
         cmocka_unit_test(times_beyond_the_limit_without_bias_are_refused),
