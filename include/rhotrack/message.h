@@ -1111,7 +1111,7 @@ RHO_MUST_CHECK enum rho_status rho_message_accumulator_add(
 
 /* bearing_scan_t: bearings of one scan of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. */
 
-#define RHO_MESSAGE_BEARING_SCAN_CHANNEL "RHO_BEARINGS_" /* prefix: the sensor's number follows */
+#define RHO_MESSAGE_BEARING_SCAN_CHANNEL "RHO_BEARINGS_" /* then the sensor's number */
 #define RHO_MESSAGE_BEARING_SCAN_FINGERPRINT UINT64_C(0x66d140164191753b)
 #define RHO_MESSAGE_BEARING_SCAN_MAX_SIZE 1064u
 #define RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD 256
@@ -1255,7 +1255,7 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
  * RHO_DIRECTIONS_<sensor_id>.
  */
 
-#define RHO_MESSAGE_DIRECTION_SCAN_CHANNEL "RHO_DIRECTIONS_" /* prefix: the sensor's number follows */
+#define RHO_MESSAGE_DIRECTION_SCAN_CHANNEL "RHO_DIRECTIONS_" /* then the sensor's number */
 #define RHO_MESSAGE_DIRECTION_SCAN_FINGERPRINT UINT64_C(0x73ea0ef7000f017b)
 #define RHO_MESSAGE_DIRECTION_SCAN_MAX_SIZE 1416u
 #define RHO_MESSAGE_DIRECTION_SCAN_MAX_DIRECTIONS 80
@@ -1617,7 +1617,7 @@ RHO_MUST_CHECK enum rho_status rho_message_plane_add(
  * plot_scan_t: plots of one scan of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>.
  */
 
-#define RHO_MESSAGE_PLOT_SCAN_CHANNEL "RHO_PLOTS_" /* prefix: the sensor's number follows */
+#define RHO_MESSAGE_PLOT_SCAN_CHANNEL "RHO_PLOTS_" /* then the sensor's number */
 #define RHO_MESSAGE_PLOT_SCAN_FINGERPRINT UINT64_C(0x0ec35bb85bc4cbde)
 #define RHO_MESSAGE_PLOT_SCAN_MAX_SIZE 1401u
 #define RHO_MESSAGE_PLOT_SCAN_POSITION_2D 2
@@ -1683,7 +1683,7 @@ RHO_MUST_CHECK enum rho_status rho_message_plot_scan_add(
  * RHO_POLAR_<sensor_id>.
  */
 
-#define RHO_MESSAGE_POLAR_SCAN_CHANNEL "RHO_POLAR_" /* prefix: the sensor's number follows */
+#define RHO_MESSAGE_POLAR_SCAN_CHANNEL "RHO_POLAR_" /* then the sensor's number */
 #define RHO_MESSAGE_POLAR_SCAN_FINGERPRINT UINT64_C(0x0570bdbf57d4a221)
 #define RHO_MESSAGE_POLAR_SCAN_MAX_SIZE 1366u
 #define RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS 54

@@ -86,9 +86,9 @@
  *            its parts are still coming.
  *
  * The channel tells which sensor sent a message: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n> or
- * RHO_DIRECTIONS_<n>, with n the message's sensor_id; the last two carry scans of one kind. The reception clock counts microseconds from any epoch. It must
- * go on, and should run as fast as the sensors' clocks do: a replay gives the times at which the
- * record was made.
+ * RHO_DIRECTIONS_<n>, with n the message's sensor_id; the last two are scans of bearings. The
+ * reception clock counts microseconds from any epoch. It must go on, and should run as fast as the
+ * sensors' clocks do: a replay gives the times at which the record was made.
  * The object holds no pointers: a memcpy is a snapshot.
  *
  * Stack: 100 bytes at most where nothing else is said.

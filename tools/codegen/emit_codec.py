@@ -227,7 +227,7 @@ def constant_macros(struct, known):
     lines = []
     if channel:
         lines.append(f'#define {prefix}CHANNEL "{channel}"' +
-                     (" /* prefix: the sensor's number follows */" if has_sensor else ""))
+                     (" /* then the sensor's number */" if has_sensor else ""))
     fingerprint = parse_lcm_types.fingerprint(struct, known)
     lines.append(f"#define {prefix}FINGERPRINT UINT64_C(0x{fingerprint:016x})")
     lines.append(f"#define {prefix}MAX_SIZE {parse_lcm_types.max_message_size(struct, known)}u")

@@ -122,9 +122,9 @@ static const struct command commands[] = {
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
      "lpLRTAEmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
-     "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
-     "RHO_TRACKS and RHO_PEAKS at each scan, with body_max_m RHO_BODIES, and once a second\n"
-     "RHO_STATUS, RHO_WORK and RHO_SENSORS,\n"
+     "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n> and\n"
+     "RHO_DIRECTIONS_<n>, and publishes RHO_TRACKS and RHO_PEAKS at each scan, with body_max_m\n"
+     "RHO_BODIES, and once a second RHO_STATUS, RHO_WORK and RHO_SENSORS,\n"
      "with them what is learned of each sensor in turn, RHO_LEARNED, and of tracks' lives, "
      "RHO_LIFE,\n"
      "and what is known of clutter that comes back, RHO_CLUTTER, every five. Bad, late and lost "

@@ -2,8 +2,8 @@
 /*
  * bearing_reader: reads files of bearings as frames, merged by time. LCM logs are read as
  * log_scans.h describes, CSV files by these columns:
- * t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad[,sigma_rad][,sector_from_rad,sector_to_rad]
- * [,snr_db];
+ * t_s,sensor_id,sensor_x_m,sensor_y_m[,sensor_z_m],bearing_rad[,elevation_rad][,sigma_rad]
+ * [,sigma_elevation_rad][,sector_from_rad,sector_to_rad][,snr_db];
  * others are ignored. Bearings are counter-clockwise from +x. Rows of one sensor with the same t_s
  * (or within scan_interval_s) form one scan; with a column scan, rows of the same scan and epoch. A
  * row without a bearing is a scan without detections. Scans of different sensors within
