@@ -42,6 +42,20 @@ check 'sensors that see nothing say so' matches \
     '1 at 0 -10000: 8;2 at 0 10000: 8;16'
 run simulate passive-clutter --seed 3 --runs 2 -o runs
 check 'runs' cmp -s passive-clutter/bearings.csv runs/run-0000/bearings.csv
+run simulate passive-two --set passive.0.sigma_elevation_rad=0.001 --set passive.0.z_m=30 \
+    --set targets.0='{"at_m": [0, 0, 3000], "velocity_mps": [200, 10, 5]}' --seed 3 -o up
+check 'elevations of one sensor of two' matches "$(awk -F, \
+    'NR > 1 { n[$2 " " $5 + 0 " " ($7 == "")]++ } END { for (s in n) print s }' up/bearings.csv \
+    | sort | tr '\n' ';')" '1 30 0;2 0 1;'
+check 'elevations: the header' matches "$(head -n 1 up/bearings.csv)" \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,sensor_z_m,bearing_rad,elevation_rad,scan,target_id'
+check 'elevations: the noise' grep -qx 'sigma_elevation_rad = 0.001' up/scenario.ini
+run convert up/bearings.csv up.lcm
+run track up/bearings.csv --config up/scenario.ini -o up.csv
+check 'elevations are tracked' exits 0
+run track up.lcm --config up/scenario.ini -o log.csv
+check 'tracks of a log of directions are those of the file' cmp up.csv log.csv
+check 'and there are some' grep -q confirmed log.csv
 check 'runs differ' bash -c '! cmp -s runs/run-0000/bearings.csv runs/run-0001/bearings.csv'
 
 # ---- good files ----
@@ -127,6 +141,15 @@ refuse 'half a sector, in a row' '2: sector_to_rad is empty' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n0,1,0,0,1,-1,\n'
 refuse 'half a sector, in the header' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad\n0,1,0,0,1,0\n'
+high="${header%\\n},elevation_rad,sigma_elevation_rad,sensor_z_m\n"
+refuse 'elevation beyond the zenith' '2: elevation_rad 1.6 is outside *' "${high}0,1,0,0,1,1.6,,\n"
+refuse 'elevation without a bearing' '2: bearing_rad is empty' "${high}0,1,0,0,,1,,\n"
+refuse 'no noise of elevations' '2: sigma_elevation_rad 0 is outside *' "${high}0,1,0,0,1,1,0,\n"
+refuse 'a height NaN' "2: sensor_z_m 'nan' is not finite" "${high}0,1,0,0,1,1,,nan\n"
+refuse 'a scan from two heights' "3: the sensor's place differs *" \
+    "${high}0,1,0,0,1,1,,5\n0,1,0,0,1,1,,6\n"
+refuse 'two units of elevation' "1: columns 'elevation_rad' and 'elevation_deg' exclude *" \
+    "${high%\\n},elevation_deg\n0,1,0,0,1,1,,,1\n"
 refuse 'snr_db that is no number' "2: snr_db 'loud' is not a number" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,snr_db\n0,1,0,0,1,loud\n'
 refuse 'a short row' '4: short row: 4 cells, the header has 5' "${good}1,1,0,0\n"

@@ -73,7 +73,7 @@ refuse 'clutter in x and y without an area' '1: clutter?0?: needs box_m*' \
 refuse 'clutter without velocities' \
     '1: clutter?0?.kind: has no velocities, which sensor 1 measures*' \
     "$plane, \"clutter\": [{\"kind\": \"cell\", \"plots\": 5, \"at_m\": [0, 0], \"radius_m\": 9}]}"
-refuse 'heights of a radar that has none' '1: targets: heights are for radars with sigma_m' \
+refuse 'heights of a radar that has none' '1: targets: heights are for radars with sigma_m, or *' \
     "$start, \"targets\": [{\"at_m\": [1, 2, 3], \"velocity_mps\": [1, 1]}]}"
 refuse 'a pull beside a turn' '1: targets?0?.legs?0?.turn_degps: does not go with accel_mps2' \
     "$plane, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], "\

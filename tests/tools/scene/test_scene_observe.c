@@ -392,6 +392,31 @@ static void passive_sensors_measure_bearings(void **state)
     free_observation(run, scene);
 }
 
+static void passive_sensors_may_measure_elevations(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = observe_scene_text(
+        "{\"version\": 1, \"duration_s\": 8000, \"passive\": [{\"interval_s\": 4, \"z_m\": 100, "
+        "\"sigma_rad\": 0.002, \"sigma_elevation_rad\": 0.003, \"false_bearings\": 1}], "
+        "\"targets\": [{\"at_m\": [3000, 4000, 5100], \"velocity_mps\": [0, 0, 0]}]}",
+        &scene, 1);
+    struct moments right = {0}, wrong = {0};
+
+    assert_true(scene->has_heights && scene->has_elevations);
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            const struct scene_plot *plot = &run->scans[i].plots[k];
+
+            add_moment(plot->target_id < 0 ? &wrong : &right, plot->elevation_rad);
+        }
+    }
+    assert_near(mean_of_moments(&right), atan2(5000, 5000), 4 * 0.003 / sqrt(right.count));
+    assert_near(sigma_of_moments(&right), 0.003, 4 * 0.003 / sqrt(2 * right.count));
+    assert_near(mean_of_moments(&wrong), 0.3927, 4 * 0.2267 / sqrt(wrong.count));
+    free_observation(run, scene);
+}
+
 static void false_bearings_may_come_in_bursts(void **state)
 {
     (void)state;
@@ -473,6 +498,7 @@ int main(void)
         cmocka_unit_test(a_target_may_give_split_plots),
         cmocka_unit_test(unresolved_targets_give_one_plot),
         cmocka_unit_test(passive_sensors_measure_bearings),
+        cmocka_unit_test(passive_sensors_may_measure_elevations),
         cmocka_unit_test(false_bearings_may_come_in_bursts),
         cmocka_unit_test(a_camera_may_sway),
         cmocka_unit_test(scans_come_in_the_order_of_their_reception),

@@ -45,6 +45,7 @@ struct scene_coverage {
 struct scene_stated {
     double x_m, y_m, pd;
     double sigma_m, sigma_mps, sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps, sigma_rad;
+    double sigma_elevation_rad;
     double range_bias_m, azimuth_bias_rad, time_bias_s;
     struct scene_coverage coverage;
     struct scene_notch notch;
@@ -80,6 +81,8 @@ struct scene_sensor {
     double late_share, late_s;
     /* of a passive sensor: a sine of this amplitude and period in each target's bearings */
     double sway_rad, sway_s;
+    /* of a passive sensor: sigma of elevations, 0: it measures none; and its height */
+    double sigma_elevation_rad, z_m;
     double false_bearings;               /* of a passive sensor: mean number a scan */
     bool is_geometric;                   /* their distribution; false: Poisson */
     double false_from_rad, false_to_rad; /* sector in which false bearings lie */
@@ -163,7 +166,8 @@ struct scene {
     size_t num_sensors, num_radars; /* sensors: radars first, then passive ones */
     struct scene_sensor sensors[2 * SCENE_SENSORS_MAX];
     struct scene_targets targets;
-    bool has_heights; /* some target is given a height: plots then have heights */
+    bool has_heights;    /* some target is given a height: plots then have heights */
+    bool has_elevations; /* some passive sensor measures elevations */
     size_t num_clutter;
     struct scene_clutter clutter[SCENE_ITEMS_MAX];
     struct scene_reflectors reflectors;

@@ -239,6 +239,12 @@ static struct scene_plot noisy_plot_of_sighting(const struct scene_sensor *senso
         plot.vy_mps = sighting->at.vy_mps + sensor->sigma_mps * random_normal(random);
         plot.vz_mps = sighting->at.vz_mps + sensor->sigma_mps * random_normal(random);
     }
+    if (sensor->sigma_elevation_rad > 0.0) {
+        const double noisy_rad = portable_atan2(sighting->at.z_m - sensor->z_m, sighting->range_m) +
+                                 sensor->sigma_elevation_rad * random_normal(random);
+
+        plot.elevation_rad = fmax(-0.5 * PORTABLE_PI, fmin(0.5 * PORTABLE_PI, noisy_rad));
+    }
     return plot;
 }
 
@@ -932,9 +938,15 @@ static void observe_false_bearings(struct observer *observer)
                                               : random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
+            const size_t before = observer->num_plots;
+
             store_clutter_plot(
                 observer, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
                 random_between(&random, sensor->false_from_rad, sensor->false_to_rad), 0, 0, 0);
+            if (sensor->sigma_elevation_rad > 0.0 && observer->num_plots > before) {
+                observer->plots[before].elevation_rad =
+                    random_between(&random, 0.0, 0.25 * PORTABLE_PI);
+            }
         }
     }
 }

@@ -15,6 +15,7 @@ struct scene_plot {
     double t_s;
     double range_m, azimuth_rad,
         range_rate_mps;            /* measured values; of passive sensors only the azimuth */
+    double elevation_rad;          /* measured value of passive sensors with sigma_elevation_rad */
     double x_m, y_m, z_m;          /* measured position, of Cartesian radars only */
     double vx_mps, vy_mps, vz_mps; /* measured velocity, where the radar measures it */
     int target_id;                 /* target of the plot; -1: clutter */

@@ -108,6 +108,7 @@ static void read_told_values(struct json_object *object, struct scene_sensor *se
                                   .sigma_azimuth_rad = sensor->sigma_azimuth_rad,
                                   .sigma_range_rate_mps = sensor->sigma_range_rate_mps,
                                   .sigma_rad = sensor->sigma_rad,
+                                  .sigma_elevation_rad = sensor->sigma_elevation_rad,
                                   .coverage = sensor->coverage,
                                   .notch = sensor->notch};
     if (!json_read_object(object, "told", &below)) {
@@ -116,6 +117,10 @@ static void read_told_values(struct json_object *object, struct scene_sensor *se
     told->pd = json_read_number(&below, "pd", 0.01, 0.999, told->pd);
     if (sensor->is_passive) {
         told->sigma_rad = json_read_number(&below, "sigma_rad", 1e-6, 0.5, told->sigma_rad);
+        if (sensor->sigma_elevation_rad > 0.0) {
+            told->sigma_elevation_rad = json_read_number(&below, "sigma_elevation_rad", 1e-6, 0.5,
+                                                         told->sigma_elevation_rad);
+        }
     } else if (sensor->is_cartesian) {
         told->sigma_m = json_read_number(&below, "sigma_m", 1e-3, 1e5, told->sigma_m);
         if (sensor->sigma_mps > 0.0) {
@@ -204,6 +209,10 @@ static void read_passive_sensor(struct json_object *object, struct scene_sensor 
     sensor->is_passive = true;
     json_require_key(object, "sigma_rad");
     sensor->sigma_rad = json_read_number(object, "sigma_rad", 1e-6, 0.5, 0);
+    sensor->sigma_elevation_rad = json_read_number(object, "sigma_elevation_rad", 1e-6, 0.5, 0);
+    if (sensor->sigma_elevation_rad > 0.0) {
+        sensor->z_m = json_read_number(object, "z_m", -PLACE_MAX_M, PLACE_MAX_M, 0);
+    }
     sensor->azimuth_bias_rad = json_read_number(object, "azimuth_bias_rad", -0.5, 0.5, 0);
     sensor->time_bias_s = json_read_number(object, "time_bias_s", -10, 10, 0);
     sensor->sway_rad = json_read_number(object, "sway_rad", 0, 0.5, 0);
@@ -273,6 +282,8 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
         struct json_object one = json_element(&passive, i);
 
         read_and_append_sensor(scene, &one, true);
+        scene->has_elevations = scene->has_elevations ||
+                                scene->sensors[scene->num_sensors - 1].sigma_elevation_rad > 0.0;
     }
 }
 
@@ -628,8 +639,10 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
     for (size_t i = 0; i < scene->targets.count; i++) {
         scene->has_heights = scene->has_heights || scene->targets.items[i].has_height;
     }
-    if (scene->has_heights && (scene->num_radars == 0 || !scene->sensors[0].is_cartesian)) {
-        json_fail_key(&root, "targets", "heights are for radars with sigma_m");
+    if (scene->has_heights &&
+        (scene->num_radars == 0 ? !scene->has_elevations : !scene->sensors[0].is_cartesian)) {
+        json_fail_key(&root, "targets",
+                      "heights are for radars with sigma_m, or sensors with sigma_elevation_rad");
     }
     list = json_read_list(&root, "clutter", SCENE_ITEMS_MAX);
     for (size_t i = 0; i < list.count; i++) {

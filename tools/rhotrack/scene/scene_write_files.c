@@ -157,18 +157,23 @@ static void write_bearing_scan(const struct scene_run *run, const struct scene_s
                                FILE *file)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
+    const bool has_elevations = run->scene->has_elevations;
     char place[96];
 
-    snprintf(place, sizeof place, "%d,%.3f,%.3f", sensor->sensor_id, sensor->told.x_m,
-             sensor->told.y_m);
+    snprintf(place, sizeof place, has_elevations ? "%d,%.3f,%.3f,%.3f" : "%d,%.3f,%.3f",
+             sensor->sensor_id, sensor->told.x_m, sensor->told.y_m, sensor->z_m);
     for (size_t i = 0; i < scan->num_plots; i++) {
-        fprintf(file, "%.6f,%s,%.8f", scan->plots[i].t_s + sensor->time_bias_s, place,
-                scan->plots[i].azimuth_rad);
+        fprintf(file, "%.6f,%s,%.8f%s", scan->plots[i].t_s + sensor->time_bias_s, place,
+                scan->plots[i].azimuth_rad, has_elevations ? "," : "");
+        if (sensor->sigma_elevation_rad > 0.0) {
+            fprintf(file, "%.8f", scan->plots[i].elevation_rad);
+        }
         write_arrival_cells(run, scan, file);
         end_row_with_target_id(scan->plots[i].target_id, file);
     }
     if (scan->num_plots == 0) {
-        fprintf(file, "%.6f,%s,", scan->end_s + sensor->time_bias_s, place);
+        fprintf(file, "%.6f,%s,%s", scan->end_s + sensor->time_bias_s, place,
+                has_elevations ? "," : "");
         write_arrival_cells(run, scan, file);
         fprintf(file, ",\n");
     }
@@ -179,7 +184,8 @@ static void write_bearings_file(const struct scene_run *run, const char *folder)
     char *path = path_join(folder, "bearings.csv");
     struct output output = output_open(path);
 
-    fprintf(output.file, "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan%s,target_id\n",
+    fprintf(output.file, "t_s,sensor_id,sensor_x_m,sensor_y_m,%s,scan%s,target_id\n",
+            run->scene->has_elevations ? "sensor_z_m,bearing_rad,elevation_rad" : "bearing_rad",
             needs_arrival_column(run->scene) ? ",received_s" : "");
     for (size_t i = 0; i < run->num_scans; i++) {
         if (run->scans[i].sensor >= run->scene->num_radars) {
@@ -288,6 +294,9 @@ static void write_sensor_settings(const struct scene_sensor *sensor, FILE *file)
             told->x_m, told->y_m, told->pd);
     if (sensor->is_passive) {
         fprintf(file, "sigma_rad = %.9g\n", told->sigma_rad);
+        if (told->sigma_elevation_rad > 0.0) {
+            fprintf(file, "sigma_elevation_rad = %.9g\n", told->sigma_elevation_rad);
+        }
     } else {
         fprintf(file, "sigma_range_m = %.9g\nsigma_azimuth_rad = %.9g\n", told->sigma_range_m,
                 told->sigma_azimuth_rad);
