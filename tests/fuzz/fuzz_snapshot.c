@@ -102,7 +102,9 @@ static void step_bearings(int k)
             const double y_m = target_m(i, t_s, 1) - (double)looks[s].y_m;
             bearings[s][i] = (struct rho_bearing){
                 .bearing_rad = (float)(i < 4 ? atan2(y_m, x_m) : uniform(-PI, PI)),
-                .sigma_rad = 0.003f};
+                .sigma_rad = 0.003f,
+                .elevation_rad = (float)atan2(2000.0, hypot(x_m, y_m)),
+                .sigma_elevation_rad = s == 0 ? 0.005f : 0.0f};
         }
     }
     struct rho_frame frame = {.time_us = looks[0].time_us, .num_scans = 3, .scans = looks};

@@ -93,10 +93,13 @@ static void check_frame(const struct rho_frame *frame)
 
         abort_unless(i == 0 || scan->sensor_id > scan[-1].sensor_id);
         abort_unless(is_within(scan->x_m, RHO_LIMIT_POSITION_M) &&
-                     is_within(scan->y_m, RHO_LIMIT_POSITION_M));
+                     is_within(scan->y_m, RHO_LIMIT_POSITION_M) &&
+                     is_within(scan->z_m, RHO_LIMIT_POSITION_M));
         for (uint32_t k = 0; k < scan->num_bearings; k++) {
             abort_unless(is_within(scan->bearings[k].bearing_rad, 3.1415928f));
             abort_unless(is_within(scan->bearings[k].sigma_rad, RHO_LIMIT_SIGMA_RAD_MAX));
+            abort_unless(is_within(scan->bearings[k].elevation_rad, 1.5707964f));
+            abort_unless(is_within(scan->bearings[k].sigma_elevation_rad, RHO_LIMIT_SIGMA_RAD_MAX));
         }
     }
 }

@@ -1102,6 +1102,9 @@ static void push_to_own_initiator(struct script *script)
 
 /* ---- frames of bearings ---------------------------------------------------------------------- */
 
+/* of all targets above the passive sensors */
+#define HEIGHT_M 2000.0
+
 struct bearings {
     struct rho_bearing_scan looks[LOOKS_MAX];
     struct rho_bearing bearings[LOOKS_MAX][BEARINGS_MAX];
@@ -1115,13 +1118,17 @@ static void add_bearings_of_targets(struct rho_bearing_scan *look, const struct 
 
     for (unsigned i = 0; i < world.num_targets; i++) {
         const double x_m = target_m(i, 0), y_m = target_m(i, 1);
-        const double bearing_rad = atan2(y_m - (double)look->y_m, x_m - (double)look->x_m);
+        const double east_m = x_m - (double)look->x_m, north_m = y_m - (double)look->y_m;
+        const double bearing_rad = atan2(north_m, east_m);
 
         if (uniform(0, 1) < 0.95 && is_in_sector(&sector, from, x_m, y_m)) {
             bearings[look->num_bearings++] = (struct rho_bearing){
                 .bearing_rad =
                     (float)remainder(bearing_rad + uniform(-2e-3, 2e-3), 2 * PI) * 0.9999f,
-                .sigma_rad = 0.002f};
+                .sigma_rad = 0.002f,
+                /* of every other target */
+                .elevation_rad = (float)atan2(HEIGHT_M, hypot(east_m, north_m)),
+                .sigma_elevation_rad = i % 2 ? 0.004f : 0.0f};
         }
     }
 }
@@ -1132,7 +1139,7 @@ static void edit_frame(struct script *script, struct rho_frame *frame, struct be
     struct rho_bearing_scan *look = &seen->looks[s];
     struct rho_bearing *bearing = &seen->bearings[s][read_byte(script) % BEARINGS_MAX];
 
-    switch (which % 12) {
+    switch (which % 15) {
     case 0:
         look->x_m = read_extreme_float(script);
         break;
@@ -1165,6 +1172,15 @@ static void edit_frame(struct script *script, struct rho_frame *frame, struct be
         break;
     case 10:
         bearing->sigma_rad = read_extreme_float(script);
+        break;
+    case 11:
+        look->z_m = read_extreme_float(script);
+        break;
+    case 12:
+        bearing->elevation_rad = read_extreme_float(script);
+        break;
+    case 13:
+        bearing->sigma_elevation_rad = read_extreme_float(script);
         break;
     default:
         bearing->bearing_rad = read_extreme_float(script);

@@ -458,6 +458,26 @@ def test_two_sensors_and_two_targets_have_two_ghosts():
     np.testing.assert_allclose(crossings, targets, atol=1)
 
 
+def test_bearings_have_elevations_in_rows_and_in_files(tmp_path):
+    text = ("t_s,sensor_id,sensor_x_m,sensor_y_m,sensor_z_m,bearing_rad,elevation_rad\n"
+            "0,1,0,0,12,0.5,0.25\n0,1,0,0,12,0.75,\n0,2,9000,0,0,1,-0.5\n")
+    (tmp_path / "bearings.csv").write_text(text)
+    settings = rhotrack.Settings(sigma_elevation_rad=0.125)
+    scans = rhotrack.read(tmp_path / "bearings.csv", settings=settings)
+    for frame in (scans[0], rhotrack.Scans(scans[:], settings)[0]):
+        np.testing.assert_array_equal(frame["elevation_rad"], np.float32([0.25, np.nan, -0.5]))
+        np.testing.assert_array_equal(frame["sigma_elevation_rad"],
+                                      np.float32([0.125, np.nan, 0.125]))
+        np.testing.assert_array_equal(frame["sensor_z_m"], np.float32([12, 12, np.nan]))
+    rows = scans[0].copy()
+    rows["sigma_elevation_rad"] = np.nan
+    made = rhotrack.Scans([rows], settings)[0]
+    np.testing.assert_array_equal(made["sigma_elevation_rad"], scans[0]["sigma_elevation_rad"])
+    rows["sensor_z_m"] = 3e6
+    with pytest.raises(rhotrack.Error, match="are not a place"):
+        rhotrack.Scans([rows], settings)
+
+
 def test_the_papers_lines_are_where_all_pairs_of_sensors_vote(scene):
     folder = scene("passive-three")
     settings = rhotrack.Settings(folder / "scenario.ini")
