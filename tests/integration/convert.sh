@@ -319,8 +319,8 @@ refuse 'two sigmas of elevations' "3: sigma_elevation_rad differs from that of t
 refuse 'a sensor at two heights' "3: sensor_z_m differs from that of the scan's first row" \
     "${directions}1,1,0,0,1,,1,,5\n1,1,0,0,1,,1,,6\n"
 refuse 'more directions than a message has' \
-    '82: a scan has more than 80 rows, the limit of a message' \
-    "${directions}$(for i in $(seq 81); do printf '1,1,0,0,0.%03d,,1,,\n' "$i"; done)"
+    '66: a scan has more than 64 rows, the limit of a message' \
+    "${directions}$(for i in $(seq 65); do printf '1,1,0,0,0.%03d,,1,,\n' "$i"; done)"
 refuse 'no bearing that is believed' '2: bearing_rad 4e6 is outside *' \
     "${bearings}1,1,0,0,4e6,0.1\n"
 refuse 'more bearings than a message has' \

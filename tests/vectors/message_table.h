@@ -544,7 +544,7 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
      offsetof(MESSAGE_STRUCT(clutter_map), echoes), MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), 34, 40, MESSAGE_LIST_IS_POINTER},
     {"direction_scan_t", MESSAGE_TABLE(direction_scan), 11, sizeof(MESSAGE_STRUCT(direction_scan)),
      {"num_directions", offsetof(MESSAGE_STRUCT(direction_scan), num_directions), 0, 2, 1, .rule = MEMBER_ANY},
-     offsetof(MESSAGE_STRUCT(direction_scan), directions), MESSAGE_TABLE(direction), 5, sizeof(MESSAGE_STRUCT(direction)), 17, 80, MESSAGE_LIST_IS_POINTER},
+     offsetof(MESSAGE_STRUCT(direction_scan), directions), MESSAGE_TABLE(direction), 5, sizeof(MESSAGE_STRUCT(direction)), 17, 64, MESSAGE_LIST_IS_POINTER},
     {"ghost_matrix_t", MESSAGE_TABLE(ghost_matrix), 16, sizeof(MESSAGE_STRUCT(ghost_matrix)),
      {"num_elements", offsetof(MESSAGE_STRUCT(ghost_matrix), num_elements), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(ghost_matrix), elements), MESSAGE_TABLE(ghost), 6, sizeof(MESSAGE_STRUCT(ghost)), 17, 78, MESSAGE_LIST_IS_POINTER},

@@ -927,6 +927,7 @@ static uint64_t draw_geometric(struct random *random, double mean)
     return count;
 }
 
+/* False bearings have elevations of 0 to 45 degrees. */
 static void observe_false_bearings(struct observer *observer)
 {
     const struct scene_sensor *sensor = observer->sensor;
