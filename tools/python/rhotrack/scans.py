@@ -30,9 +30,9 @@ class Scans(Sequence):
 
     Fields of a row (float32 but t_s, float64, and sensor_id, int32; NaN or no field: not said):
     t_s, sensor_id; x_m, y_m[, z_m][, vx_mps, vy_mps, vz_mps], or range_m, azimuth_rad (or
-    azimuth_deg, clockwise from north)[, elevation_rad], or bearing_rad; range_rate_mps; their
-    sigmas; sector_from_rad, sector_to_rad; sensor_x_m, sensor_y_m, sensor_z_m; snr_db. Noise of
-    places is sigma_m, or sigma_range_m, sigma_cross_m and sigma_up_m along the line of sight,
+    azimuth_deg, clockwise from north), or bearing_rad; with either elevation_rad; range_rate_mps;
+    their sigmas; sector_from_rad, sector_to_rad; sensor_x_m, sensor_y_m, sensor_z_m; snr_db. Noise
+    of places is sigma_m, or sigma_range_m, sigma_cross_m and sigma_up_m along the line of sight,
     across it and upwards. Metres, seconds, radians counter-clockwise from east.
 
     A row without a plot stands for the scan: its t_s is the scan's, and alone it is a scan that saw
