@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The gate of bearings: distance, determinant, limit and own times, compared with the linearised
- * filter in double precision.
+ * The gate of bearings: distance, determinant, limit, own times and elevations, compared with the
+ * linearised filter in double precision.
  */
 #include "dense_filter_bearing_measurement.h"
+#include "dense_filter_slope_measurement.h"
 #include "kalman_checks.h"
 #include "rhotrack/detail/gate.h"
 
@@ -205,6 +206,200 @@ static void invalid_bearings_and_estimates_are_outside_the_gate(void **state)
     assert_outside_gate(&kalman, bearing, 0.0f);
 }
 
+/* ---- elevations ------------------------------------------------------------------------------ */
+
+/* The slope of the estimate, and its distance and ln of its density, at the bearing's own time. */
+struct expected_slope {
+    double distance2, log_density;
+};
+
+static struct expected_slope expected_slope_gate(const struct rho_kalman *kalman,
+                                                 const struct rho_bearing *bearing,
+                                                 const struct rho_bearing_scan *scan)
+{
+    const double offset_s = bearing->offset_us * 1e-6;
+    const double tangent = tan(bearing->elevation_rad);
+    const struct rho_slope slope = {
+        .x_m = scan->x_m,
+        .y_m = scan->y_m,
+        .z_m = scan->z_m,
+        .value = (float)tangent,
+        .sigma = (float)((double)bearing->sigma_elevation_rad * (1.0 + tangent * tangent))};
+    struct dense at = dense_of(kalman->state, kalman->covariance);
+
+    dense_predict(&at, offset_s, offset_s > 0.0 ? (double)NOISE : 0.0);
+    const struct dense_measurement m = dense_slope(&at, &slope);
+    const double range = hypot(at.x[0] - (double)scan->x_m, at.x[1] - (double)scan->y_m);
+    const double variance = dense_innovation_variance(&at, &m) / (range * range);
+    const double off = m.y[0] / range;
+    return (struct expected_slope){off * off / variance,
+                                   -0.5 * (log(2.0 * DENSE_PI * variance) + off * off / variance)};
+}
+
+/* A correlated estimate with a height, 5 to 100 km from the scan's place. */
+static struct rho_kalman random_estimate_with_height(const struct rho_bearing_scan *scan)
+{
+    const double place[2] = {scan->x_m, scan->y_m};
+    struct rho_kalman kalman = random_estimate(place);
+
+    random_covariance(kalman.covariance, 2.0);
+    kalman.state[2] = (float)uniform(0.0, 12000.0);
+    kalman.state[5] = (float)uniform(-50.0, 50.0);
+    return kalman;
+}
+
+static void slopes_agree_with_the_linearised_filter(void **state)
+{
+    const struct rho_bearing_scan scan = {.x_m = 2000.0f, .y_m = -7000.0f, .z_m = 150.0f};
+    const double place[2] = {2000.0, -7000.0};
+    int inside = 0, outside_by_slope = 0;
+
+    (void)state;
+    for (int n = 0; n < NUM_CASES; ++n) {
+        const struct rho_kalman kalman = random_estimate_with_height(&scan);
+        struct rho_bearing bearing = random_bearing_near(&kalman, place, n);
+        struct dense at = dense_of(kalman.state, kalman.covariance);
+        struct rho_gate gate;
+        struct rho_gate_result result = {.has_z = 1}, plain = {.slope_nat = 1.0f};
+
+        dense_predict(&at, bearing.offset_us * 1e-6, 0.0);
+        const double range = hypot(at.x[0] - place[0], at.x[1] - place[1]);
+        const double spread =
+            hypot(sqrt(at.p[2][2]) / range,
+                  bearing.sigma_elevation_rad = (float)pow(10.0, uniform(-4.0, -1.5)));
+        bearing.elevation_rad =
+            (float)fmin(1.3, atan2(at.x[2] - 150.0, range) + 2.5 * spread * normal());
+        const struct expected expected = expected_gate(&kalman, &bearing, place);
+        const struct expected_slope slope = expected_slope_gate(&kalman, &bearing, &scan);
+        rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+        const int is_in = rho_gate_test_bearing(&gate, &scan, &bearing, &result);
+        if (fabs(expected.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3 &&
+            fabs(slope.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3) {
+            assert_int_equal(is_in, expected.distance2 < (double)RHO_GATE_CHI2_1D &&
+                                        slope.distance2 < (double)RHO_GATE_CHI2_1D);
+        }
+        bearing.sigma_elevation_rad = 0.0f;
+        const int is_in_without = rho_gate_test_bearing(&gate, &scan, &bearing, &plain);
+        assert_true(is_in_without || !is_in);
+        outside_by_slope += is_in_without && !is_in;
+        if (is_in) {
+            inside++;
+            assert_float_equal(result.slope_nat, slope.log_density,
+                               2e-3 * (1.0 + slope.distance2) + 1e-5 * fabs(slope.log_density));
+            assert_true(plain.slope_nat == 0.0f && plain.distance2 == result.distance2 &&
+                        plain.log_det == result.log_det);
+        }
+    }
+    assert_in_range(inside, NUM_CASES / 3, NUM_CASES * 9 / 10);
+    assert_true(outside_by_slope > NUM_CASES / 20);
+}
+
+/* The density is that of a slope, not of an elevation: they differ where it is steep. */
+static void a_wrong_elevation_is_outside_the_gate(void **state)
+{
+    struct rho_kalman kalman = opened_filter(3, 100.0f, 1.0f);
+    const struct rho_bearing_scan scan = {.z_m = 200.0f};
+    struct rho_bearing bearing = {.sigma_rad = 0.001f, .sigma_elevation_rad = 0.001f};
+    struct rho_gate gate;
+    struct rho_gate_result result;
+
+    (void)state;
+    kalman.state[0] = 3000.0f;
+    kalman.state[1] = 0.0f;
+    kalman.state[2] = 4200.0f;
+    bearing.elevation_rad = (float)atan2(4000.0, 3000.0);
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
+    const double slope = 4.0 / 3.0, sigma = 0.001 * (1.0 + slope * slope);
+    const double variance =
+        pow(sigma, 2.0) * (1.0 + 100.0 / 9e6) + 100.0 * (1.0 + slope * slope) / 9e6;
+    assert_float_equal(result.slope_nat, -0.5 * log(2.0 * DENSE_PI * variance), 2e-3);
+    bearing.elevation_rad += 0.05f;
+    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 0);
+    bearing.elevation_rad -= 0.1f;
+    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 0);
+    bearing.sigma_elevation_rad = 0.0f;
+    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
+    assert_true(result.slope_nat == 0.0f);
+}
+
+static void a_track_without_a_height_ignores_elevations(void **state)
+{
+    const struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f);
+    const struct rho_bearing_scan scan = {.z_m = 200.0f};
+    struct rho_gate gate;
+
+    (void)state;
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    for (int n = 0; n < 100; ++n) {
+        struct rho_gate_result result = {.slope_nat = 1.0f};
+        const struct rho_bearing bearing = {.offset_us = n % 2 * 1000,
+                                            .bearing_rad = (float)atan2(200.0, 100.0),
+                                            .sigma_rad = 0.001f,
+                                            .elevation_rad = (float)uniform(-1.5, 1.5),
+                                            .sigma_elevation_rad = 0.001f};
+
+        assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
+        assert_true(result.slope_nat == 0.0f);
+    }
+}
+
+/* Elevations steeper than RHO_ELEVATION_MAX_RAD are not measured: the bearing alone counts. */
+static void steep_elevations_are_not_tested(void **state)
+{
+    struct rho_kalman kalman = opened_filter(3, 100.0f, 1.0f);
+    const struct rho_bearing_scan scan = {.z_m = 0.0f};
+    struct rho_bearing bearing = {.bearing_rad = (float)atan2(200.0, 100.0),
+                                  .sigma_rad = 0.001f,
+                                  .elevation_rad = 1.45f,
+                                  .sigma_elevation_rad = 0.001f};
+    struct rho_gate gate;
+    struct rho_gate_result result = {.slope_nat = 1.0f};
+
+    (void)state;
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
+    assert_true(result.slope_nat == 0.0f);
+    bearing.elevation_rad = 1.39f;
+    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 0);
+}
+
+/*
+ * Targets are drawn from the track's covariance, bearings and elevations with their noise: each of
+ * the two misses one in a thousand.
+ */
+static void the_gate_misses_two_true_elevated_bearings_in_a_thousand(void **state)
+{
+    struct rho_kalman kalman = opened_filter(3, 2500.0f, 100.0f);
+    const struct rho_bearing_scan scan = {.z_m = 100.0f};
+    struct rho_gate gate;
+    int outside = 0, outside_by_slope = 0;
+
+    (void)state;
+    kalman.state[0] = -20000.0f;
+    kalman.state[1] = 0.0f;
+    kalman.state[2] = 8000.0f;
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    for (int n = 0; n < 100000; ++n) {
+        const double x = -20000.0 + 50.0 * normal(), y = 50.0 * normal();
+        const double z = 8000.0 + 50.0 * normal();
+        struct rho_bearing bearing = {
+            .bearing_rad = (float)remainder(atan2(y, x) + 0.002 * normal(), 2.0 * DENSE_PI),
+            .sigma_rad = 0.002f,
+            .elevation_rad = (float)(atan2(z - 100.0, hypot(x, y)) + 0.002 * normal()),
+            .sigma_elevation_rad = 0.002f};
+        struct rho_gate_result result;
+        const int is_in = rho_gate_test_bearing(&gate, &scan, &bearing, &result);
+
+        outside += !is_in;
+        bearing.sigma_elevation_rad = 0.0f;
+        outside_by_slope += !is_in && rho_gate_test_bearing(&gate, &scan, &bearing, &result);
+    }
+    print_message("outside the gate: %d of 100000, by slope %d\n", outside, outside_by_slope);
+    assert_in_range(outside, 140, 260); /* 200 expected, standard deviation 14 */
+    assert_in_range(outside_by_slope, 60, 140);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -212,6 +407,11 @@ int main(void)
         cmocka_unit_test(the_gate_misses_one_true_bearing_in_a_thousand),
         cmocka_unit_test(the_gate_is_at_the_bearings_own_time),
         cmocka_unit_test(invalid_bearings_and_estimates_are_outside_the_gate),
+        cmocka_unit_test(slopes_agree_with_the_linearised_filter),
+        cmocka_unit_test(a_wrong_elevation_is_outside_the_gate),
+        cmocka_unit_test(a_track_without_a_height_ignores_elevations),
+        cmocka_unit_test(steep_elevations_are_not_tested),
+        cmocka_unit_test(the_gate_misses_two_true_elevated_bearings_in_a_thousand),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

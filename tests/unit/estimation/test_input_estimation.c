@@ -2,7 +2,7 @@
 /*
  * Input estimation and its decisions, compared with an augmented Kalman filter in double precision.
  */
-#include "dense_filter.h"
+#include "dense_filter_slope_measurement.h"
 #include "input_estimation_reference.h"
 #include "kalman_checks.h"
 
@@ -574,6 +574,86 @@ static void bearings_are_linearised_at_the_corrected_estimate(void **state)
     assert_pair_agrees(&pair);
 }
 
+static void slopes_are_linearised_at_the_corrected_estimate(void **state)
+{
+    double truth[6];
+
+    (void)state;
+    for (int is_physical = 0; is_physical <= 1; ++is_physical) {
+        struct scene scene = plain;
+
+        scene.setting.is_physical = is_physical;
+        struct pair pair = manoeuvring_pair(&scene, truth);
+        const struct dense before = estimate_of_augmented(&pair.augmented);
+        const double range = hypot(truth[0] - 45e3, truth[1] - 30e3);
+        const struct rho_slope slope = {.x_m = 45e3f,
+                                        .y_m = 30e3f,
+                                        .z_m = 20.0f,
+                                        .value = (float)((truth[2] - 20.0) / range + 3e-4),
+                                        .sigma = 2e-4f};
+        const struct dense_measurement m = dense_slope(&before, &slope);
+        update_by_row(&pair.augmented, &m);
+        assert_int_equal(rho_input_update_slope(&pair.input, &pair.config, &slope), RHO_OK);
+        assert_pair_agrees(&pair);
+    }
+}
+
+/* Inputs of x and y are present; the height is that of the line to the corrected place. */
+static void a_first_slope_opens_a_height_of_the_corrected_estimate(void **state)
+{
+    const struct rho_slope slope = {.x_m = 45e3f, .y_m = 30e3f, .value = 0.3f, .sigma = 0.01f};
+    struct rho_input_config config = config_of(&plain);
+    struct rho_kalman kalman = opened_filter(2, 500.0f, 500.0f), corrected, seen;
+    double truth[6];
+    struct rho_input input;
+
+    (void)state;
+    set_fixed_initial_truth(truth);
+    for (int i = 0; i < STATES; ++i) {
+        kalman.state[i] = i % 3 < 2 ? (float)truth[i] : 0.0f;
+    }
+    config.model = RHO_INPUT_PHYSICAL;
+    assert_int_equal(rho_input_start(&input, &config, &kalman), RHO_OK);
+    for (int k = 1; k <= 40; ++k) {
+        move_truth(truth, &plain, plain.setting.dt * k);
+        assert_int_equal(rho_input_predict(&input, &config, (float)plain.setting.dt), RHO_OK);
+        for (int axis = 0; axis < 2; ++axis) {
+            const float value = (float)(truth[axis] + normal());
+            assert_int_equal(rho_input_update_element(&input, &config, axis, value, 1.0f), RHO_OK);
+        }
+        rho_input_decide(&input, &config);
+    }
+    assert_true(input.present != 0);
+    rho_input_estimate(&input, &corrected);
+    const struct dense before = dense_of(corrected.state, corrected.covariance);
+    const struct dense_measurement m = dense_slope(&before, &slope);
+    const double variance = dense_innovation_variance(&before, &m);
+    assert_int_equal(rho_input_update_slope(&input, &config, &slope), RHO_OK);
+    rho_input_estimate(&input, &seen);
+    assert_true(rho_kalman_has_axis(&seen, 2));
+    assert_float_equal(seen.state[2], m.y[0], 0.1 * sqrt(variance));
+    assert_float_equal(seen.covariance[RHO_AT(2, 2)], variance, 0.02 * variance);
+    assert_float_equal(seen.covariance[RHO_AT(5, 5)], config.velocity_variance, 1.0);
+}
+
+static void slopes_that_are_not_measured_change_nothing(void **state)
+{
+    double truth[6];
+
+    (void)state;
+    struct pair pair = manoeuvring_pair(&plain, truth);
+    const struct rho_input before = pair.input;
+    struct rho_slope slope = {.x_m = 45e3f, .y_m = 30e3f, .value = 0.3f};
+    assert_int_equal(rho_input_update_slope(&pair.input, &pair.config, &slope), RHO_OK);
+    assert_memory_equal(&pair.input, &before, sizeof before);
+    struct rho_kalman corrected;
+    rho_input_estimate(&pair.input, &corrected);
+    slope = (struct rho_slope){
+        .x_m = corrected.state[0], .y_m = corrected.state[1], .value = 0.3f, .sigma = 0.01f};
+    assert_int_equal(rho_input_update_slope(&pair.input, &pair.config, &slope), RHO_OK);
+    assert_memory_equal(&pair.input, &before, sizeof before);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -584,6 +664,9 @@ int main(void)
         cmocka_unit_test(decisions_agree_with_noise_along_the_line_of_sight),
         cmocka_unit_test(range_rates_are_linearised_at_the_corrected_estimate),
         cmocka_unit_test(bearings_are_linearised_at_the_corrected_estimate),
+        cmocka_unit_test(slopes_are_linearised_at_the_corrected_estimate),
+        cmocka_unit_test(a_first_slope_opens_a_height_of_the_corrected_estimate),
+        cmocka_unit_test(slopes_that_are_not_measured_change_nothing),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
