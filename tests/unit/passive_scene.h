@@ -66,6 +66,10 @@ struct target {
     double x_m, y_m, vx_mps, vy_mps; /* at time 0 */
 };
 
+struct height {
+    double z_m, vz_mps; /* at time 0 */
+};
+
 struct scene {
     unsigned sensors, targets, scans;
     double sigma_from_rad, sigma_to_rad; /* limits of the bearings' sigmas */
@@ -75,9 +79,12 @@ struct scene {
     double time_s[SCENE_SCANS];
     double sensor_x_m[SCENE_SENSORS], sensor_y_m[SCENE_SENSORS]; /* at time 0 */
     double sensor_vx_mps[SCENE_SENSORS], sensor_vy_mps[SCENE_SENSORS];
-    double offset_s[SCENE_SENSORS]; /* of the sensor's looks, after the scans' times */
-    int has_single_scans;           /* each scan is a frame of its own */
+    double sensor_z_m[SCENE_SENSORS];
+    double sigma_elevation_rad[SCENE_SENSORS]; /* 0: the sensor measures no elevations */
+    double offset_s[SCENE_SENSORS];            /* of the sensor's looks, after the scans' times */
+    int has_single_scans;                      /* each scan is a frame of its own */
     struct target target[SCENE_TARGETS];
+    struct height height[SCENE_TARGETS]; /* of the targets, for sensors that measure elevations */
     struct look look[SCENE_SCANS][SCENE_SENSORS];
 };
 
@@ -131,6 +138,18 @@ static inline double target_y_m(const struct target *target, double time_s)
     return target->y_m + time_s * target->vy_mps;
 }
 
+static inline double height_z_m(const struct height *height, double time_s)
+{
+    return height->z_m + time_s * height->vz_mps;
+}
+
+/* A height, and a climb or descent that keeps the target in the air. */
+static inline struct height random_height(void)
+{
+    const double z_m = uniform(1.5e3, 8.5e3);
+    return (struct height){z_m, uniform(-15.0, 15.0)};
+}
+
 /* ---- bearings ------------------------------------------------------------------------------- */
 
 static inline void add_bearing(struct look *look, double bearing_rad, double sigma_rad, int target)
@@ -181,6 +200,18 @@ static inline double look_y_m(const struct scene *scene, unsigned k, unsigned s)
     return scene->sensor_y_m[s] + look_time_s(scene, k, s) * scene->sensor_vy_mps[s];
 }
 
+/* Adds an elevation to the bearing added last, where the sensor measures it. */
+static inline void add_elevation(const struct scene *scene, struct look *look, unsigned s,
+                                 double elevation_rad)
+{
+    const double sigma_rad = scene->sigma_elevation_rad[s];
+    if (sigma_rad > 0.0 && look->count > 0) {
+        struct rho_bearing *bearing = &look->bearings[look->count - 1u];
+        bearing->elevation_rad = (float)(elevation_rad + sigma_rad * normal());
+        bearing->sigma_elevation_rad = (float)sigma_rad;
+    }
+}
+
 static inline void see_look(struct scene *scene, unsigned k, unsigned s)
 {
     struct look *look = &scene->look[k][s];
@@ -191,12 +222,17 @@ static inline void see_look(struct scene *scene, unsigned k, unsigned s)
         if (uniform(0.0, 1.0) < scene->pd) {
             double dx_m = target_x_m(&scene->target[i], time_s) - look_x_m(scene, k, s);
             double dy_m = target_y_m(&scene->target[i], time_s) - look_y_m(scene, k, s);
+            double dz_m = height_z_m(&scene->height[i], time_s) - scene->sensor_z_m[s];
             add_bearing(look, atan2(dy_m, dx_m) + sigma_rad * error, sigma_rad, (int)i);
+            add_elevation(scene, look, s, atan2(dz_m, hypot(dx_m, dy_m)));
         }
     }
     for (unsigned left = poisson(scene->false_bearings); left > 0; left--) {
         double sigma_rad = uniform(scene->sigma_from_rad, scene->sigma_to_rad);
         add_bearing(look, uniform(-0.5 * PI, 0.5 * PI), sigma_rad, -1);
+        if (scene->sigma_elevation_rad[s] > 0.0) {
+            add_elevation(scene, look, s, uniform(0.0, 0.5));
+        }
     }
     shuffle(look);
 }
@@ -270,6 +306,7 @@ static inline void fill_frame(const struct scene *scene, unsigned k, struct full
                                           .sensor_id = (int32_t)(10 + s),
                                           .x_m = (float)look_x_m(scene, k, s),
                                           .y_m = (float)look_y_m(scene, k, s),
+                                          .z_m = (float)scene->sensor_z_m[s],
                                           .sector_from_rad = (float)look->sector_from_rad,
                                           .sector_to_rad = (float)look->sector_to_rad,
                                           .num_bearings = look->count,
