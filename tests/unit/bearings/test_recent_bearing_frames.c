@@ -300,6 +300,70 @@ static void fates_tell_which_bearings_are_held_or_invalid(void **state)
     assert_int_equal(given.fates[0] + given.fates[1], 2 * RHO_FATE_HELD);
 }
 
+static void elevations_are_held_as_slopes_from_the_sensors_height(void **state)
+{
+    (void)state;
+    init_batch(4);
+    make_frame(1, 2, 4);
+    given.scans[0].z_m = 250.0f;
+    given.scans[1].z_m = -30.0f;
+    for (unsigned i = 0; i < 4; i++) {
+        given.bearings[1][i].elevation_rad = 0.45f * (float)i - 0.45f;
+        given.bearings[1][i].sigma_elevation_rad = i < 3 ? 0.01f : 0.0f;
+    }
+    given.bearings[0][2].elevation_rad = 1.5f; /* too steep: the bearing alone is held */
+    given.bearings[0][2].sigma_elevation_rad = 0.01f;
+    push_frame();
+    assert_true(rho_batch_is_sound(&batch));
+    assert_true(batch.looks[0][0].z_m == 250.0f && batch.looks[0][1].z_m == -30.0f);
+    for (unsigned i = 0; i < 4; i++) {
+        const struct rho_batch_bearing *with = &batch.bearings[0][1][i];
+        const double slope = tan(0.45 * i - 0.45);
+        assert_true(batch.bearings[0][0][i].sigma_slope == 0.0f);
+        assert_float_equal(with->sigma_slope, i < 3 ? 0.01 * (1.0 + slope * slope) : 0.0, 1e-6);
+        assert_true(i == 3 || fabs((double)with->slope - slope) < 1e-6);
+    }
+}
+
+/* The steepest and least certain elevation that is valid leaves a sound batch. */
+static void extreme_elevations_leave_a_sound_batch(void **state)
+{
+    const float extreme_rad[] = {1.4f, -1.4f, 1.57079637f, -1.57079637f};
+    (void)state;
+    for (unsigned i = 0; i < NUM(extreme_rad); i++) {
+        init_batch(4);
+        make_frame(1, 1, 1);
+        given.bearings[0][0].elevation_rad = extreme_rad[i];
+        given.bearings[0][0].sigma_elevation_rad = RHO_LIMIT_SIGMA_RAD_MAX;
+        push_frame();
+        assert_int_equal(given.fates[0], RHO_FATE_HELD);
+        assert_true(rho_batch_is_sound(&batch));
+    }
+}
+
+static void bearings_with_invalid_elevations_are_invalid(void **state)
+{
+    const struct rho_bearing bad[] = {
+        {.elevation_rad = NAN, .sigma_elevation_rad = 0.01f},
+        {.elevation_rad = 1.6f, .sigma_elevation_rad = 0.01f},
+        {.elevation_rad = 0.1f, .sigma_elevation_rad = NAN},
+        {.elevation_rad = 0.1f, .sigma_elevation_rad = -0.01f},
+        {.elevation_rad = 0.1f, .sigma_elevation_rad = 0.6f},
+    };
+    (void)state;
+    for (unsigned i = 0; i < NUM(bad); i++) {
+        init_batch(4);
+        make_frame(1, 1, 3);
+        given.bearings[0][1].elevation_rad = bad[i].elevation_rad;
+        given.bearings[0][1].sigma_elevation_rad = bad[i].sigma_elevation_rad;
+        push_frame();
+        assert_int_equal(given.fates[0], RHO_FATE_HELD);
+        assert_int_equal(given.fates[1], RHO_FATE_INVALID);
+        assert_int_equal(given.fates[2], RHO_FATE_HELD);
+        assert_int_equal(batch.num_bearings[0][0], 2);
+    }
+}
+
 /*
  * Invalid and claimed bearings take no room; the fates of the second scan follow those of the
  * first.
@@ -851,6 +915,9 @@ int main(void)
         cmocka_unit_test(sensors_may_move_and_stand_together),
         cmocka_unit_test(sensors_beyond_the_capacity_are_refused),
         cmocka_unit_test(fates_tell_which_bearings_are_held_or_invalid),
+        cmocka_unit_test(elevations_are_held_as_slopes_from_the_sensors_height),
+        cmocka_unit_test(extreme_elevations_leave_a_sound_batch),
+        cmocka_unit_test(bearings_with_invalid_elevations_are_invalid),
         cmocka_unit_test(bearings_beyond_the_capacity_find_no_room),
         cmocka_unit_test(bearings_of_owners_are_stored_with_them),
         cmocka_unit_test(bearings_of_owners_do_not_count_as_left),

@@ -121,13 +121,18 @@ static void add_frame(double t_s)
         struct rho_bearing_scan *look = &event->looks[event->frame.num_scans++];
         *look = (struct rho_bearing_scan){.time_us = event->frame.time_us,
                                           .sensor_id = 10 + sensor,
-                                          .x_m = sensor ? 8e3f : -8e3f};
+                                          .x_m = sensor ? 8e3f : -8e3f,
+                                          .z_m = sensor ? 40.0f : 0.0f};
         for (int target = 0; target < TARGETS; target++) {
             const double bearing_rad = atan2(target_coordinate_at_m(target, t_s, 1),
                                              target_coordinate_at_m(target, t_s, 0) - look->x_m);
             if (uniform(0.0, 1.0) < 0.9) {
                 event->bearings[sensor][look->num_bearings++] = (struct rho_bearing){
-                    .bearing_rad = (float)(bearing_rad + 0.002 * normal()), .sigma_rad = 0.002f};
+                    .bearing_rad = (float)(bearing_rad + 0.002 * normal()),
+                    .sigma_rad = 0.002f,
+                    /* of one of the sensors, and constant: the draws stay those of scenes without */
+                    .elevation_rad = 0.02f + 0.01f * (float)target,
+                    .sigma_elevation_rad = sensor ? 0.01f : 0.0f};
             }
         }
     }
@@ -667,6 +672,19 @@ static void assert_invalid_field_refused(unsigned part, size_t field, const void
         assert_invalid_field_refused(part, offsetof(struct type, field), &wrong, sizeof wrong);    \
     } while (0)
 
+static void test_invalid_elevations_are_refused(void)
+{
+    NONSENSE(3, rho_passive, batch.bearings[0][1][0].slope, float, NAN);
+    NONSENSE(3, rho_passive, batch.bearings[0][1][0].slope, float, 1e30f);
+    NONSENSE(3, rho_passive, batch.bearings[0][1][0].slope, float, -11.0f);
+    NONSENSE(3, rho_passive, batch.bearings[0][1][0].sigma_slope, float, NAN);
+    NONSENSE(3, rho_passive, batch.bearings[0][1][0].sigma_slope, float, INFINITY);
+    NONSENSE(3, rho_passive, batch.bearings[0][1][0].sigma_slope, float, 101.0f);
+    NONSENSE(3, rho_passive, batch.bearings[0][1][0].sigma_slope, float, -1e-6f);
+    NONSENSE(3, rho_passive, batch.looks[0][1].z_m, float, NAN);
+    NONSENSE(3, rho_passive, batch.looks[0][1].z_m, float, 2.1e6f);
+}
+
 static void test_invalid_fields_with_a_right_checksum_are_refused(void **state)
 {
     const float nan = NAN;
@@ -767,6 +785,7 @@ static void test_invalid_fields_with_a_right_checksum_are_refused(void **state)
     NONSENSE(3, rho_passive, batch.newest_us, int64_t, INT64_MAX);
     NONSENSE(3, rho_passive, batch.bearings[0][0][0].bearing_rad, float, nan);
     NONSENSE(3, rho_passive, batch.bearings[0][0][0].owner.density_nat, float, nan);
+    test_invalid_elevations_are_refused();
     assert_int_equal(load_image(&other, image_bytes), RHO_OK);
 }
 
