@@ -130,7 +130,7 @@ static void add_frame(double t_s)
                 event->bearings[sensor][look->num_bearings++] = (struct rho_bearing){
                     .bearing_rad = (float)(bearing_rad + 0.002 * normal()),
                     .sigma_rad = 0.002f,
-                    /* of one of the sensors, and constant: the draws stay those of scenes without */
+                    /* of one sensor, constant: the draws stay those of scenes without */
                     .elevation_rad = 0.02f + 0.01f * (float)target,
                     .sigma_elevation_rad = sensor ? 0.01f : 0.0f};
             }
