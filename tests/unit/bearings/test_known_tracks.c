@@ -458,6 +458,52 @@ static void a_safe_track_is_never_beaten_and_keeps_its_bearings(void **state)
     }
 }
 
+/* Two targets at one place of the plane and at different heights, seen with elevations. */
+static void draw_targets_one_above_the_other(uint64_t seed)
+{
+    random_state = seed;
+    scene = scene_of(3, 2, 0.1, 1.0, 0.0);
+    for (unsigned s = 0; s < scene.sensors; s++) {
+        scene.sigma_elevation_rad[s] = 0.1 * DEG_RAD;
+    }
+    set_scan_times(&scene);
+    scene.target[0] = (struct target){uniform(40e3, 60e3), uniform(-12e3, 12e3),
+                                      uniform(-250.0, -150.0), uniform(-40.0, 40.0)};
+    scene.target[1] = scene.target[0];
+    scene.height[0] = (struct height){8000.0, -12.0};
+    scene.height[1] = (struct height){2000.0, 6.0};
+    see_all_looks(&scene);
+}
+
+/* A known track at a target and its height, off_m higher. */
+static struct rho_passive_known known_with_height(uint32_t track_id, unsigned target, double off_m)
+{
+    struct rho_passive_known known = known_at_target(track_id, target);
+    known.z_m = (float)(height_z_m(&scene.height[target], last_time_s()) + off_m);
+    known.vz_mps = (float)scene.height[target].vz_mps;
+    return known;
+}
+
+/* A safe track takes the bearings of its height, and leaves those of the target below it. */
+static void a_safe_track_keeps_the_bearings_of_its_height(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        draw_targets_one_above_the_other(seed);
+        for (unsigned owned = 0; owned < 2; owned++) {
+            struct rho_passive_known known = known_with_height(1, owned, 0.0);
+            known.is_safe = 1;
+            push_owned(nobody_owns);
+            challenge(&known, 1);
+            assert_int_equal(known.is_beaten, 0);
+            assert_int_equal(passive.num_tracks, 1);
+            expect_track_of_target(1 - (int)owned);
+            assert_float_equal(passive.tracks[0].z_m,
+                               height_z_m(&scene.height[1 - owned], last_time_s()), 500.0);
+        }
+    }
+}
+
 static void bearings_of_owners_that_are_not_known_are_left_out(void **state)
 {
     (void)state;
@@ -566,6 +612,7 @@ int main(void)
         cmocka_unit_test(a_track_without_bearings_is_beaten),
         cmocka_unit_test(a_new_target_is_found_beside_known_tracks),
         cmocka_unit_test(a_safe_track_is_never_beaten_and_keeps_its_bearings),
+        cmocka_unit_test(a_safe_track_keeps_the_bearings_of_its_height),
         cmocka_unit_test(bearings_of_owners_that_are_not_known_are_left_out),
         cmocka_unit_test(where_no_track_is_known_bearings_of_owners_are_left_out),
         cmocka_unit_test(known_tracks_are_at_the_time_of_the_newest_frame),

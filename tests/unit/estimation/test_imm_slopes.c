@@ -153,9 +153,10 @@ static void a_slope_couples_axes_that_were_apart(void **state)
         wide_update(&expected.models[which], &z);
     }
     assert_int_equal(rho_imm_update_slope(&imm, &model, &slope), RHO_OK);
+    assert_int_equal(imm.is_coupled, 1);
     compare_both_models(&imm, &expected, &before, &worst);
     assert_true(worst.state < STATE_SIGMAS && worst.covariance < COVARIANCE_SIGMAS2);
-    /* the next step moves all covariances, which it does for coupled axes alone */
+    /* the next step moves all covariances */
     expected.is_apart = 0;
     rho_imm_prepare_step(&step, &model, 2.0f);
     reference_predict(&expected, &model, 2.0, 1);

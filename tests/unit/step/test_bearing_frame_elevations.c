@@ -297,6 +297,37 @@ static void of_two_bearings_that_of_the_right_height_is_claimed(void **state)
     }
 }
 
+/* Both bearings are in the gate: the elevations alone tell which one is nearer. */
+static void of_two_bearings_in_the_gate_that_of_the_likelier_height_is_claimed(void **state)
+{
+    (void)state;
+    unsigned right = 0, looks = 0;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        start_track_of_radar(&kinds[0], seed, 0.0);
+        for (unsigned k = 10; k < 24; k++) {
+            step_radar_scan(10.0 * k);
+            see_frame(k, 10.0 * k + 4.0);
+            struct look *look = &scene.look[scene_slot_of(k)][0];
+            const unsigned at = k % 2;
+            if (k >= 18) {
+                const double range_m = hypot(target_x_m(&scene.target[0], 10.0 * k + 4.0),
+                                             target_y_m(&scene.target[0], 10.0 * k + 4.0) + 10e3);
+                look->count = 2;
+                look->bearings[1] = look->bearings[0];
+                look->bearings[at].elevation_rad = (float)atan2(5000.0 - 700.0, range_m);
+                look->bearings[1 - at].elevation_rad =
+                    look->bearings[at].elevation_rad + 2.5f * (float)scene.sigma_elevation_rad[0];
+                fill_frame(&scene, scene_slot_of(k), &full);
+            }
+            step_frame(&full.frame);
+            right += k >= 18 && report.fates[at] == RHO_FATE_CLAIMED;
+            looks += k >= 18;
+        }
+    }
+    print_message("%u of %u likelier bearings claimed\n", right, looks);
+    assert_true(right >= looks * 7 / 10);
+}
+
 /* Two targets at one place of the plane, three kilometres apart in height, each with its track. */
 static void bearings_go_to_the_track_of_their_height(void **state)
 {
@@ -420,6 +451,7 @@ int main(void)
         cmocka_unit_test(a_radars_track_gains_a_height_from_a_camera),
         cmocka_unit_test(a_bearing_of_another_height_is_not_claimed),
         cmocka_unit_test(of_two_bearings_that_of_the_right_height_is_claimed),
+        cmocka_unit_test(of_two_bearings_in_the_gate_that_of_the_likelier_height_is_claimed),
         cmocka_unit_test(bearings_go_to_the_track_of_their_height),
         cmocka_unit_test(a_snapshot_continues_with_the_same_heights),
         cmocka_unit_test(bearings_with_invalid_elevations_are_refused),
