@@ -40,11 +40,6 @@ struct rho_passive_config {
     float v_max_mps;         /* largest speed of targets: 1 .. RHO_LIMIT_SPEED_MPS */
     float pd;                /* probability that a sensor sees a target in a scan: 0.01 .. 0.999 */
     float field_of_view_rad; /* width of the sector in which false bearings occur: 0.01 .. 2 pi */
-    /*
-     * smallest share of hits in the looks whose sector contained the track: 0.1 .. 1; half this
-     * share is required of all looks
-     */
-    float hits_min;
     /* rate of false tracks that reach the score start_mnat: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
 };
@@ -158,8 +153,7 @@ struct rho_passive {
 };
 
 /*
- * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65. Constant
- * cost.
+ * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi. Constant cost.
  */
 void rho_passive_config_default(struct rho_passive_config *config);
 

@@ -16,7 +16,7 @@
  *     rho_settings_apply(&settings, &track, &start, NULL);
  *
  * A field that several configs have stands here once, so that tracker and initiators cannot
- * contradict each other. Fields of one config alone (gate, learn_noise_min, hits_min, ...) are set
+ * contradict each other. Fields of one config alone (gate, learn_noise_min, ...) are set
  * in that config after rho_settings_apply.
  *
  * While tracking, the same configs go to the live objects; tracks, identities and all that was

@@ -87,7 +87,7 @@ void rho_passive_list_known(struct rho_passive_search *search)
             continue;
         }
         claim_taken(search, known->track_id, &taken);
-        rho_passive_fit_nearest(search, fitted.state_m);
+        rho_passive_fit_nearest(search, !known->is_level, fitted.state_m);
         rho_passive_claim_nearest(search, RHO_PASSIVE_ALSO_CLAIMED | RHO_PASSIVE_BY_SLOPE, &fitted);
         const int is_better =
             rho_passive_score_claimed(search, &fitted, &chi2) && fitted.score_nat > taken.score_nat;

@@ -19,7 +19,6 @@ void rho_passive_config_default(struct rho_passive_config *config)
                                           .v_max_mps = 450.0f,
                                           .pd = 0.9f,
                                           .field_of_view_rad = RHO_PI,
-                                          .hits_min = 0.65f,
                                           .false_tracks_per_hour = 1.0f};
 }
 
@@ -30,7 +29,6 @@ static int is_usable(const struct rho_passive_config *config)
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->field_of_view_rad, 0.01f, RHO_TWO_PI) &&
-           rho_is_within(config->hits_min, 0.1f, 1.0f) &&
            rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f);
 }
 

@@ -105,9 +105,10 @@ int rho_passive_step_to_claims(const struct rho_passive_search *search,
     rho_linalg_forward(n, factor, equations.b);
     rho_linalg_backward(n, factor, equations.b);
     for (int i = 0; i < n; i++) {
-        track->state_m[i] =
-            clipped(track->state_m[i] + clipped(equations.b[i], STEP_MAX_RANGES * range_m),
-                    POSITION_MAX_RANGES * range_m);
+        /* slopes are linear in the height: it needs no small steps */
+        const float step_m =
+            i < RHO_PASSIVE_Z ? clipped(equations.b[i], STEP_MAX_RANGES * range_m) : equations.b[i];
+        track->state_m[i] = clipped(track->state_m[i] + step_m, POSITION_MAX_RANGES * range_m);
     }
     return 1;
 }
@@ -136,17 +137,16 @@ void rho_passive_claim_nearest(const struct rho_passive_search *search, int matc
     claim_within(search, BEARING_GATE_SIGMAS, matching, track);
 }
 
-void rho_passive_fit_nearest(const struct rho_passive_search *search, float state_m[N])
+void rho_passive_fit_nearest(const struct rho_passive_search *search, int has_height,
+                             float state_m[N])
 {
     static const float gates[4] = {8.0f, 5.0f, BEARING_GATE_SIGMAS, BEARING_GATE_SIGMAS};
     struct rho_passive_candidate fitted;
     int goes_on = 1;
     memcpy(fitted.state_m, state_m, sizeof fitted.state_m);
     for (unsigned step = 0; step < 4 && goes_on; step++) {
-        /* the first step finds the height, which the state may lack */
         claim_within(search, gates[step],
-                     step > 0 ? RHO_PASSIVE_UNCLAIMED | RHO_PASSIVE_BY_SLOPE
-                              : RHO_PASSIVE_UNCLAIMED,
+                     step > 0 || has_height ? RHO_PASSIVE_BY_SLOPE : RHO_PASSIVE_UNCLAIMED,
                      &fitted);
         goes_on = rho_passive_step_to_claims(search, &fitted);
     }
@@ -168,22 +168,11 @@ int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned sca
     return rho_angle_in_sector(rho_atan2(offset.y_m, offset.x_m), from_rad, to_rad);
 }
 
-/*
- * True where score, hits, chi-square, speed and sensors are those of a track. out_of_view: looks of
- * sensors whose sector did not contain its position.
- */
+/* True where score, chi-square, speed and sensors are those of a track. */
 static int is_track(const struct rho_passive_search *search,
-                    const struct rho_passive_candidate *track, float chi2, int scalars,
-                    unsigned out_of_view)
+                    const struct rho_passive_candidate *track, float chi2, int scalars)
 {
     const struct rho_passive *passive = search->passive;
-    /*
-     * Hits must be a share of the looks that had the position in view, and half that share of all
-     * looks: otherwise a state that is hardly ever in view would need very few hits.
-     */
-    float share = passive->config.hits_min, hits = (float)track->hits;
-    int has_hits = hits >= share * (float)(search->looks - out_of_view) &&
-                   hits >= 0.5f * share * (float)search->looks;
     /* 99.9 % quantile of chi-square, 3.09 sigmas (approximation of Wilson and Hilferty) */
     const int freedom = scalars - (scalars > (int)track->hits ? N : RHO_PASSIVE_Z);
     float n = freedom > 0 ? (float)freedom : 1.0f, part = 2.0f / (9.0f * n);
@@ -200,7 +189,7 @@ static int is_track(const struct rho_passive_search *search,
         }
         sensors += bearings >= 2;
     }
-    return has_hits && track->score_nat > 0.0f && chi2 < n * root * root * root &&
+    return track->score_nat > 0.0f && chi2 < n * root * root * root &&
            !(way2_m2 >= rho_square(most_m)) && sensors >= 2;
 }
 
@@ -259,7 +248,6 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
                               struct rho_passive_candidate *track, float *chi2)
 {
     const struct rho_batch *batch = &search->passive->batch;
-    unsigned out_of_view = 0;
     int scalars = 0;
     track->score_nat = *chi2 = 0.0f;
     track->hits = 0;
@@ -276,13 +264,11 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
             } else if (batch->was_seen[k][s] &&
                        rho_passive_is_in_view(search, k, s, track->state_m)) {
                 track->score_nat += search->miss_nat;
-            } else {
-                out_of_view += batch->was_seen[k][s];
             }
         }
     }
     track->score_nat += score_of_prior(search, track);
-    return is_track(search, track, *chi2, scalars, out_of_view);
+    return is_track(search, track, *chi2, scalars);
 }
 
 float rho_passive_gain_nat(const struct rho_passive_search *search, const float state_m[N],

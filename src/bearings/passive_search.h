@@ -155,8 +155,11 @@ void rho_passive_mark_directions(struct rho_passive_search *search);
  */
 float rho_passive_agreement(const struct rho_passive_search *search,
                             const float state_m[RHO_PASSIVE_STATES], float least);
-/* Fits a state to the nearest bearings: four Gauss-Newton steps, in gates of 8 to 3.5 sigmas. */
-void rho_passive_fit_nearest(const struct rho_passive_search *search,
+/*
+ * Fits a state to the nearest unclaimed bearings: four Gauss-Newton steps, in gates of 8 to 3.5
+ * sigmas. has_height 0: the first step finds its height, by bearings alone.
+ */
+void rho_passive_fit_nearest(const struct rho_passive_search *search, int has_height,
                              float state_m[RHO_PASSIVE_STATES]);
 /*
  * Improves a track's state by one Gauss-Newton step of limited size towards the bearings that it

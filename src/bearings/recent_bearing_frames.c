@@ -52,6 +52,7 @@ static int is_sensor_usable(const struct rho_batch *batch, const struct rho_fram
 {
     const struct rho_bearing_scan *scan = &frame->scans[scan_number];
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
+        !rho_is_coordinate(scan->z_m) ||
         (scan->time_us != 0 && apart_us(frame->time_us, scan->time_us) > RHO_LIMIT_OFFSET_US)) {
         return 0;
     }

@@ -142,12 +142,12 @@ enum rho_status rho_input_update_slope(struct rho_input *input,
 {
     struct rho_kalman corrected;
     struct rho_kalman_bearing seen;
-    if (!rho_kalman_has_axis(&input->bare, RHO_Z)) {
-        return rho_kalman_update_slope(&input->bare, slope, config->velocity_variance);
-    }
     rho_input_estimate(input, &corrected);
     if (!rho_kalman_linearise_slope(&corrected, slope, &seen)) {
         return RHO_OK;
+    }
+    if (!rho_kalman_has_axis(&input->bare, RHO_Z)) {
+        return rho_kalman_open_height(&input->bare, &seen, config->velocity_variance);
     }
     const float innovation_m = bare_filter_innovation(input, &corrected, seen.row, seen.off_m);
     return rho_input_update_row(input, config, seen.row, innovation_m, seen.variance_m2);

@@ -380,18 +380,34 @@ int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho
     return 1;
 }
 
+enum rho_status rho_kalman_open_height(struct rho_kalman *kalman,
+                                       const struct rho_kalman_bearing *seen,
+                                       float velocity_variance)
+{
+    float projected[RHO_KALMAN_STATES];
+    const float variance_m2 =
+        rho_linalg_project6(kalman->covariance, seen->row, projected) * RHO_ROUNDING_ALLOWANCE +
+        seen->variance_m2;
+    const enum rho_status status = rho_kalman_open_axis(
+        kalman, RHO_Z, kalman->state[RHO_Z] + seen->off_m, variance_m2, velocity_variance);
+    if (status == RHO_OK) {
+        for (int i = 0; i < RHO_KALMAN_STATES; ++i) {
+            if (i % RHO_AXES != RHO_Z) {
+                kalman->covariance[RHO_AT(RHO_Z, i)] = -projected[i];
+            }
+        }
+    }
+    return status;
+}
+
 enum rho_status rho_kalman_update_slope(struct rho_kalman *kalman, const struct rho_slope *slope,
                                         float velocity_variance)
 {
     struct rho_kalman_bearing seen;
-    float projected[RHO_KALMAN_STATES];
     if (!rho_kalman_linearise_slope(kalman, slope, &seen)) {
         return RHO_OK;
     }
-    if (rho_kalman_has_axis(kalman, RHO_Z)) {
-        return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2);
-    }
-    const float variance_m2 =
-        rho_linalg_project6(kalman->covariance, seen.row, projected) + seen.variance_m2;
-    return rho_kalman_open_axis(kalman, RHO_Z, seen.off_m, variance_m2, velocity_variance);
+    return rho_kalman_has_axis(kalman, RHO_Z)
+               ? rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2)
+               : rho_kalman_open_height(kalman, &seen, velocity_variance);
 }

@@ -29,6 +29,7 @@ static enum rho_status check_frame(const struct rho_tracker *tracker,
             return RHO_ERROR_NULL;
         }
         if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
+            !rho_is_coordinate(scan->z_m) ||
             !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
             !rho_step_is_usable_time(scan->time_us) ||
             scan->time_us - frame->time_us > RHO_LIMIT_OFFSET_US ||

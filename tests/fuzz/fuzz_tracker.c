@@ -783,11 +783,10 @@ static int configure_passive(struct script *script, struct rho_passive *passive)
                    : config.scans < RHO_MAX_PASSIVE_SCANS ? config.scans
                                                           : RHO_MAX_PASSIVE_SCANS;
     for (unsigned edits = how >> 6; edits > 0; edits--) {
-        float *const floats[] = {&config.range_max_m, &config.v_max_mps,
-                                 &config.pd,          &config.field_of_view_rad,
-                                 &config.hits_min,    &config.false_tracks_per_hour};
+        float *const floats[] = {&config.range_max_m, &config.v_max_mps, &config.pd,
+                                 &config.field_of_view_rad, &config.false_tracks_per_hour};
 
-        *floats[read_byte(script) % 6] = read_extreme_float(script);
+        *floats[read_byte(script) % 5] = read_extreme_float(script);
     }
     status = rho_passive_init(passive, sizeof *passive, &config);
     if (status != RHO_OK) {

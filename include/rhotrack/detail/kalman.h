@@ -190,6 +190,14 @@ int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho
                                struct rho_kalman_bearing *seen);
 
 /*
+ * Gives an estimate without one the height of a slope linearised at it, or at a better one; its
+ * errors go with those of the range. Errors: as rho_kalman_open_axis. Stack: 80 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_open_height(struct rho_kalman *kalman,
+                                                      const struct rho_kalman_bearing *seen,
+                                                      float velocity_variance);
+
+/*
  * Updates with a slope, or gives a height to an estimate that has none. Nothing is done where it
  * cannot be linearised, RHO_OK. Errors: as rho_kalman_update_row and rho_kalman_open_axis. Cost:
  * rho_kalman_update_row and rho_kalman_linearise_slope. Stack: 300 bytes.

@@ -598,6 +598,24 @@ static void challenges_of_no_object_are_refused(void **state)
     assert_memory_equal(&passive, &before, sizeof passive);
 }
 
+/* Known at its place and height, without bearings in the batch; another target is below it. */
+static void a_right_track_above_another_target_is_not_beaten(void **state)
+{
+    unsigned beaten = 0, started = 0;
+    (void)state;
+    for (uint64_t seed = 1; seed <= 50; seed++) {
+        draw_targets_one_above_the_other(seed);
+        struct rho_passive_known known = known_with_height(1, 0, 0.0);
+        push_owned(nobody_owns);
+        challenge(&known, 1);
+        beaten += known.is_beaten;
+        started += passive.num_tracks == 1;
+    }
+    print_message("beaten in %u of 50 runs, the other one started in %u\n", beaten, started);
+    assert_int_equal(beaten, 0);
+    assert_int_equal(started, 50);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -619,6 +637,7 @@ int main(void)
         cmocka_unit_test(too_few_rows_beat_no_track),
         cmocka_unit_test(as_many_tracks_as_there_may_be_are_challenged),
         cmocka_unit_test(challenges_of_no_object_are_refused),
+        cmocka_unit_test(a_right_track_above_another_target_is_not_beaten),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -396,6 +396,49 @@ static void the_same_elevations_give_the_same_bytes(void **state)
     assert_true(rho_passive_is_sound(&passive));
 }
 
+/* Airliners fly at 12 km; at 3 km a drone may be as high as it is far away. */
+static void high_targets_are_found(void **state)
+{
+    (void)state;
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    for (unsigned near = 0; near < 2; near++) {
+        unsigned found = 0;
+        for (unsigned run = 0; run < 50; run++) {
+            random_state = 1400 + run;
+            scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+            measure_elevations(&scene, 0.1);
+            set_scan_times(&scene);
+            scene.target[0] = random_target(scene_span_s(&scene));
+            scene.height[0] = (struct height){near ? 2500.0 : 12e3, 0.0};
+            if (near) { /* the same scene, a tenth as large */
+                config.range_max_m = 10e3f;
+                scene.sensor_y_m[0] *= 0.1;
+                scene.sensor_y_m[1] *= 0.1;
+                scene.target[0].x_m *= 0.1;
+                scene.target[0].y_m *= 0.1;
+                scene.target[0].vx_mps *= 0.1;
+                scene.target[0].vy_mps *= 0.1;
+            }
+            see_all_looks(&scene);
+            assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+            assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
+            assert_int_equal(rho_passive_search(&passive), RHO_OK);
+            found += passive.num_tracks == 1;
+        }
+        print_message("high targets found in %u of 50 runs\n", found);
+        assert_true(found >= 49);
+    }
+}
+
+/* At 0.1 degrees the heights are far apart: no first guess may be between them. */
+static void targets_far_above_one_another_are_two_tracks(void **state)
+{
+    (void)state;
+    expect_two_tracks(0.1, 3000.0);
+    expect_two_tracks(0.1, 6000.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -408,6 +451,8 @@ int main(void)
         cmocka_unit_test(ghosts_whose_elevations_disagree_do_not_start),
         cmocka_unit_test(a_crossing_whose_elevations_disagree_does_not_start),
         cmocka_unit_test(the_same_elevations_give_the_same_bytes),
+        cmocka_unit_test(high_targets_are_found),
+        cmocka_unit_test(targets_far_above_one_another_are_two_tracks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

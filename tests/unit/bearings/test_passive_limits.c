@@ -101,10 +101,6 @@ static void target_and_sensor_parameters_out_of_range_are_refused(void **state)
     EXPECT_FIELD(field_of_view_rad, 0.01f, RHO_OK);
     EXPECT_FIELD(field_of_view_rad, (float)(2.0 * PI), RHO_OK);
     EXPECT_FIELD(field_of_view_rad, 6.29f, RHO_ERROR_CONFIG);
-    EXPECT_FIELD(hits_min, 0.09f, RHO_ERROR_CONFIG);
-    EXPECT_FIELD(hits_min, 0.1f, RHO_OK);
-    EXPECT_FIELD(hits_min, 1.0f, RHO_OK);
-    EXPECT_FIELD(hits_min, 1.01f, RHO_ERROR_CONFIG);
     EXPECT_FIELD(false_tracks_per_hour, 0.0f, RHO_ERROR_CONFIG);
     EXPECT_FIELD(false_tracks_per_hour, 0.9e-6f, RHO_ERROR_CONFIG);
     EXPECT_FIELD(false_tracks_per_hour, 1.0e-6f, RHO_OK);
@@ -121,7 +117,6 @@ static void parameters_that_are_not_finite_are_refused(void **state)
         EXPECT_FIELD(v_max_mps, bad[i], RHO_ERROR_CONFIG);
         EXPECT_FIELD(pd, bad[i], RHO_ERROR_CONFIG);
         EXPECT_FIELD(field_of_view_rad, bad[i], RHO_ERROR_CONFIG);
-        EXPECT_FIELD(hits_min, bad[i], RHO_ERROR_CONFIG);
         EXPECT_FIELD(false_tracks_per_hour, bad[i], RHO_ERROR_CONFIG);
     }
 }
@@ -136,7 +131,6 @@ static void the_default_configuration_is_that_of_the_header(void **state)
     assert_float_equal(config.v_max_mps, 450.0, 0.0);
     assert_float_equal(config.pd, 0.9, 1e-6);
     assert_float_equal(config.field_of_view_rad, PI, 1e-6);
-    assert_float_equal(config.hits_min, 0.65, 1e-6);
     assert_float_equal(config.false_tracks_per_hour, 1.0, 0.0);
     expect_config_status(&config, RHO_OK);
 }
@@ -535,8 +529,6 @@ static struct rho_passive_config random_config_maybe_invalid(void)
     config.v_max_mps = random_float(1.0, 2e3);
     config.pd = random_float(0.01, 0.999);
     config.field_of_view_rad = random_float(0.01, 6.28);
-    /* above a half, so that tracks of two sensors have bearings of both */
-    config.hits_min = (float)uniform(0.55, 1.0);
     config.false_tracks_per_hour = random_float(1e-6, 1e6);
     return config;
 }

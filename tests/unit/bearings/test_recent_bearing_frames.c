@@ -901,6 +901,17 @@ static void random_calls_agree_with_a_simple_model(void **state)
     assert_in_range(joined, 400, 1400);
 }
 
+static void sensors_at_no_height_are_refused(void **state)
+{
+    const float bad_z_m[] = {NAN, INFINITY, -INFINITY, 1.01f * RHO_LIMIT_POSITION_M};
+    (void)state;
+    prepare_refusal_tests();
+    for (unsigned i = 0; i < NUM(bad_z_m); i++) {
+        given.scans[1].z_m = bad_z_m[i];
+        expect_frame_refused(RHO_ERROR_VALUE);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -930,6 +941,7 @@ int main(void)
         cmocka_unit_test(a_row_with_a_frame_of_several_sensors_stays_whole),
         cmocka_unit_test(the_first_and_last_possible_times_are_different_rows),
         cmocka_unit_test(random_calls_agree_with_a_simple_model),
+        cmocka_unit_test(sensors_at_no_height_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

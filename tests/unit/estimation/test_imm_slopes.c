@@ -165,7 +165,22 @@ static void a_slope_couples_axes_that_were_apart(void **state)
     assert_true(worst.state < STATE_SIGMAS && worst.covariance < COVARIANCE_SIGMAS2);
 }
 
-/* Both models get the height of the line of sight at the manoeuvring one's range. */
+/* Height of a slope at a model's range, and its variance by the range's and the slope's. */
+static double first_height(const struct wide_model *own, const struct rho_slope *slope,
+                           double *variance)
+{
+    const struct wide_rows z = rows_of_slope(own, slope);
+
+    *variance = z.r[0][0];
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            *variance += z.h[0][i] * z.h[0][j] * own->p[i][j];
+        }
+    }
+    return z.y[0];
+}
+
+/* Each model gets the height of the line of sight at its own range. */
 static void a_first_slope_gives_both_models_a_height(void **state)
 {
     const struct rho_imm_model model = plain_model();
@@ -176,34 +191,31 @@ static void a_first_slope_gives_both_models_a_height(void **state)
         struct rho_imm imm = random_imm(&model, &slope, 0);
         const struct reference before = reference_of(&imm);
         const struct wide_model *wide = &before.models[MANOEUVRE];
-        const struct wide_rows z = rows_of_slope(wide, &slope);
-        const double height = z.y[0],
-                     range = hypot(wide->x[0] - (double)slope.x_m, wide->x[1] - (double)slope.y_m);
-        double variance = z.r[0][0];
 
-        for (int i = 0; i < 2; ++i) {
-            for (int j = 0; j < 2; ++j) {
-                variance += z.h[0][i] * z.h[0][j] * wide->p[i][j];
-            }
-        }
         assert_true(imm.covariance[RHO_AT(2, 2)] == 0.0f && wide->x[2] == 0.0);
         assert_int_equal(rho_imm_update_slope(&imm, &model, &slope), RHO_OK);
-        const float *of[2] = {imm.steady.covariance, imm.covariance};
-        const float heights[2] = {imm.steady.state[2], imm.state[2]};
+        const float *covariances[2] = {
+            [STEADY] = imm.steady.covariance, [MANOEUVRE] = imm.covariance};
+        const float heights[2] = {[STEADY] = imm.steady.state[2], [MANOEUVRE] = imm.state[2]};
         for (int which = 0; which < 2; ++which) {
             const struct wide_model *own = &before.models[which];
-            const double own_range =
+            const double range =
                 hypot(own->x[0] - (double)slope.x_m, own->x[1] - (double)slope.y_m);
+            double variance;
+            const double height = first_height(own, &slope, &variance);
 
-            /* the steady model's range may be its own, or the other's */
-            assert_float_equal(heights[which], height,
-                               6e-7 * range +
-                                   1.01 * fabs((double)slope.value * (own_range - range)));
-            assert_true((double)of[which][RHO_AT(2, 2)] > 0.5 * variance);
-            assert_float_equal(of[which][RHO_AT(5, 5)], pow(model.speed_sigma_mps, 2.0), 1.0);
+            assert_float_equal(heights[which], height, 6e-7 * range);
+            assert_float_equal(covariances[which][RHO_AT(2, 2)], variance, 1e-5 * variance);
+            assert_float_equal(covariances[which][RHO_AT(5, 5)], pow(model.speed_sigma_mps, 2.0),
+                               1.0);
+            for (int i = 0; i < 2; ++i) { /* the height errs with the range */
+                const struct wide_rows z = rows_of_slope(own, &slope);
+                const double with_z = -z.h[0][0] * own->p[0][i] - z.h[0][1] * own->p[1][i];
+
+                assert_float_equal(covariances[which][RHO_AT(2, i)], with_z,
+                                   1e-5 * sqrt(variance * own->p[i][i]));
+            }
         }
-        assert_float_equal(imm.state[2], height, 6e-7 * range);
-        assert_float_equal(imm.covariance[RHO_AT(2, 2)], variance, 1e-5 * variance);
         assert_float_equal(imm.covariance[RHO_AT(8, 8)], pow(model.accel_sigma_mps2, 2.0), 0.1);
         assert_true(imm.state[5] == 0.0f && imm.state[8] == 0.0f && imm.steady.state[5] == 0.0f);
         assert_true(imm.state[0] == (float)wide->x[0] && imm.state[1] == (float)wide->x[1]);

@@ -654,6 +654,47 @@ static void slopes_that_are_not_measured_change_nothing(void **state)
     assert_memory_equal(&pair.input, &before, sizeof before);
 }
 
+/* In a manoeuvre the bare filter is kilometres off; the height is that at the corrected range. */
+static void a_first_slope_in_a_manoeuvre_has_the_corrected_range(void **state)
+{
+    const struct rho_slope slope = {.value = 0.3f, .sigma = 1e-3f};
+    struct rho_kalman kalman = opened_filter(2, 500.0f, 500.0f), corrected;
+    double at[2] = {30000.0, 20000.0}, v[2] = {-200.0, -150.0};
+    struct rho_input_config config;
+    struct rho_input input;
+
+    (void)state;
+    rho_input_config_default(&config);
+    config.model = RHO_INPUT_PHYSICAL;
+    config.sigma_mps2 = 20.0f;
+    config.noise_density = 1.0f;
+    config.noise_m = config.noise_mps = 0.0f;
+    for (int i = 0; i < 2; ++i) {
+        kalman.state[i] = (float)at[i];
+        kalman.state[i + 3] = (float)v[i];
+    }
+    assert_int_equal(rho_input_start(&input, &config, &kalman), RHO_OK);
+    for (int k = 0; k < 15; ++k) {
+        assert_int_equal(rho_input_predict(&input, &config, 2.0f), RHO_OK);
+        for (int i = 0; i < 2; ++i) {
+            const double input_mps2 = k > 8 ? 30.0 : 0.0;
+            at[i] += 2.0 * v[i] + 2.0 * input_mps2;
+            v[i] += 2.0 * input_mps2;
+            assert_int_equal(rho_input_update_element(&input, &config, i,
+                                                      (float)(at[i] + 50.0 * normal()), 2500.0f),
+                             RHO_OK);
+        }
+        rho_input_decide(&input, &config);
+    }
+    assert_int_equal(input.present, 3);
+    assert_int_equal(rho_input_update_slope(&input, &config, &slope), RHO_OK);
+    rho_input_estimate(&input, &corrected);
+    print_message("height %.0f, true %.0f, sigma %.0f\n", (double)corrected.state[2],
+                  0.3 * hypot(at[0], at[1]), sqrt((double)corrected.covariance[RHO_AT(2, 2)]));
+    assert_float_equal(corrected.state[2],
+                       0.3 * hypot((double)corrected.state[0], (double)corrected.state[1]), 5.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -667,6 +708,7 @@ int main(void)
         cmocka_unit_test(slopes_are_linearised_at_the_corrected_estimate),
         cmocka_unit_test(a_first_slope_opens_a_height_of_the_corrected_estimate),
         cmocka_unit_test(slopes_that_are_not_measured_change_nothing),
+        cmocka_unit_test(a_first_slope_in_a_manoeuvre_has_the_corrected_range),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -232,6 +232,38 @@ static void heights_from_slopes_have_the_errors_that_they_tell(void **state)
     assert_true(nees > 1.6 && nees < 2.4);
 }
 
+/*
+ * Elevations of one sensor tell nothing of the range: its error is that of before, however many
+ * there are, and so is what the covariance tells of it.
+ */
+static void slopes_of_one_place_leave_the_range_uncertain(void **state)
+{
+    double nees = 0.0;
+    const int runs = 2000;
+
+    (void)state;
+    for (int n = 0; n < runs; ++n) {
+        struct rho_kalman kalman = opened_filter(2, 1e6f, 0.01f);
+
+        kalman.state[0] = (float)(40000.0 + 1000.0 * normal());
+        kalman.state[1] = 0.0f;
+        kalman.covariance[RHO_AT(1, 1)] = 100.0f;
+        for (int k = 0; k < 4; ++k) {
+            const struct rho_bearing_scan scan = {.z_m = 0.0f};
+            const struct rho_bearing bearing = {
+                .elevation_rad = (float)(atan2(8000.0, 40000.0) + 0.001 * normal()),
+                .sigma_elevation_rad = 0.001f};
+            const struct rho_slope slope = rho_measurement_slope(&scan, &bearing);
+
+            assert_int_equal(rho_kalman_update_slope(&kalman, &slope, 0.01f), RHO_OK);
+        }
+        nees += pow((double)kalman.state[0] - 40000.0, 2.0) /
+                (double)kalman.covariance[RHO_AT(0, 0)] / runs;
+    }
+    print_message("NEES of the range: %.2f\n", nees);
+    assert_true(nees > 0.85 && nees < 1.15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -241,6 +273,7 @@ int main(void)
         cmocka_unit_test(updates_agree_with_the_joseph_form),
         cmocka_unit_test(a_first_slope_gives_a_height),
         cmocka_unit_test(heights_from_slopes_have_the_errors_that_they_tell),
+        cmocka_unit_test(slopes_of_one_place_leave_the_range_uncertain),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -774,7 +774,7 @@ static void test_invalid_fields_with_a_right_checksum_are_refused(void **state)
     NONSENSE(1, rho_initiator, window.ring[0].time_us, int64_t, INT64_MAX);
     NONSENSE(3, rho_passive, magic, uint32_t, 0);
     NONSENSE(3, rho_passive, num_tracks, uint16_t, RHO_MAX_PASSIVE_TRACKS + 1);
-    NONSENSE(3, rho_passive, config.hits_min, float, 0.0f);
+    NONSENSE(3, rho_passive, config.pd, float, 0.0f);
     NONSENSE(3, rho_passive, batch.num_scans, uint16_t, RHO_MAX_PASSIVE_SCANS + 1);
     NONSENSE(3, rho_passive, batch.num_sensors, uint16_t, RHO_MAX_PASSIVE_SENSORS + 1);
     NONSENSE(3, rho_passive, batch.num_bearings[0][0], uint8_t, RHO_MAX_BEARINGS + 1);
