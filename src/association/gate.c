@@ -145,43 +145,29 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
     return test_plot(gate, &at, &rate, plot, result);
 }
 
-/* Squared distance of a scalar that was seen, and ln of its variance as an angle; 0: outside. */
-static int test_angle(const struct rho_kalman *at, const struct rho_kalman_bearing *seen,
-                      float *distance2, float *log_det)
-{
-    float projected[RHO_KALMAN_STATES];
-    const float variance_m2 =
-        rho_linalg_project6(at->covariance, seen->row, projected) + seen->variance_m2;
-    if (!(seen->off_m * seen->off_m <= RHO_GATE_CHI2_1D * variance_m2) ||
-        !(variance_m2 <= FLT_MAX)) {
-        return 0;
-    }
-    *distance2 = seen->off_m * seen->off_m / variance_m2;
-    *log_det = rho_log(variance_m2) - 2.0f * rho_log(seen->range_m);
-    return 1;
-}
-
 static int test_bearing(const struct rho_kalman *at, const struct rho_bearing_scan *scan,
                         const struct rho_bearing *bearing, struct rho_gate_result *result)
 {
     struct rho_kalman_bearing seen;
-    struct rho_gate_result tested = {.distance2 = 0.0f};
+    float projected[RHO_KALMAN_STATES], slope_nis;
     if (!rho_kalman_linearise_bearing(at, scan->x_m, scan->y_m, bearing->bearing_rad,
-                                      bearing->sigma_rad, &seen) ||
-        !test_angle(at, &seen, &tested.distance2, &tested.log_det)) {
+                                      bearing->sigma_rad, &seen)) {
         return 0;
     }
-    if (bearing->sigma_elevation_rad > 0.0f && rho_kalman_has_axis(at, RHO_Z)) {
-        const struct rho_slope slope = rho_measurement_slope(scan, bearing);
-        float distance2, log_det;
-        if (rho_kalman_linearise_slope(at, &slope, &seen)) {
-            if (!test_angle(at, &seen, &distance2, &log_det)) {
-                return 0;
-            }
-            tested.slope_nat = -0.5f * (RHO_LOG_TWO_PI + log_det + distance2);
-        }
+    const float variance_m2 =
+        rho_linalg_project6(at->covariance, seen.row, projected) + seen.variance_m2;
+    if (!(seen.off_m * seen.off_m <= RHO_GATE_CHI2_1D * variance_m2) || !(variance_m2 <= FLT_MAX)) {
+        return 0;
     }
-    *result = tested;
+    const struct rho_slope slope = rho_measurement_slope(scan, bearing);
+    const float slope_density = rho_kalman_slope_density(at, &slope, &slope_nis);
+    if (!(slope_nis <= RHO_GATE_CHI2_1D)) {
+        return 0;
+    }
+    *result =
+        (struct rho_gate_result){.distance2 = seen.off_m * seen.off_m / variance_m2,
+                                 .log_det = rho_log(variance_m2) - 2.0f * rho_log(seen.range_m),
+                                 .slope_nat = rho_log(slope_density)};
     return 1;
 }
 

@@ -445,42 +445,64 @@ enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot
     return status;
 }
 
-/* True where a hypothesis was updated with the bearing: otherwise its gain is 0. */
-static int has_used_bearing(float gain_nat)
+/* The filter of a hypothesis at the time of bearing i; NULL: it cannot be moved there. */
+static const struct rho_imm *filter_at_bearing(struct rho_hypotheses *pool,
+                                               const struct rho_hypothesis *at,
+                                               const struct rho_bearing_scan *scan, unsigned i)
 {
-    return gain_nat < 0.0f || gain_nat > 0.0f;
+    return rho_hypotheses_filter_at(pool, at, scan->time_us + scan->bearings[i].offset_us);
 }
 
-enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint16_t slot,
-                                              int64_t time_us, float x_m, float y_m,
-                                              float bearing_rad, float sigma_rad,
-                                              const struct rho_slope *slope)
+int rho_hypotheses_score_bearing(struct rho_hypotheses *pool, uint16_t slot,
+                                 const struct rho_weighed_bearings *look, unsigned i,
+                                 float *density, float *variance_rad2)
+{
+    float sum = 0.0f, spread = 0.0f, shares = 0.0f, one, variance;
+    for (unsigned k = 0; k < rho_hypotheses_count(pool, slot); k++) {
+        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][k]];
+        const struct rho_imm *imm = filter_at_bearing(pool, at, look->scan, i);
+        shares += at->share;
+        if (imm && rho_imm_score_bearing(imm, look, i, &one, &variance)) {
+            sum += at->share * one;
+            spread += at->share * one * variance;
+        }
+    }
+    if (!(sum > 0.0f)) {
+        return 0;
+    }
+    *density = sum / shares;
+    *variance_rad2 = spread / sum;
+    return 1;
+}
+
+enum rho_status rho_hypotheses_update_bearings(struct rho_hypotheses *pool, uint16_t slot,
+                                               int64_t time_us,
+                                               const struct rho_weighed_bearings *look)
 {
     enum rho_status status = RHO_ERROR_VALUE;
-    float gains_nat[RHO_HYPOTHESES_OF_TRACK] = {0.0f}, least_nat = 0.0f;
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        float *gain_nat = &gains_nat[i];
+    for (unsigned k = 0; k < pool->num_of[slot]; k++) {
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][k]];
+        struct rho_bearing_mix mixes[2] = {{.hit = 0.0f}, {.hit = 0.0f}};
+        float gain_nat = 0.0f;
+        for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
+            const struct rho_imm *imm =
+                look->weight[i] > 0.0f ? filter_at_bearing(pool, at, look->scan, i) : 0;
+            if (imm) {
+                rho_imm_mix_bearing(imm, look, i, mixes);
+            }
+        }
         enum rho_status one = move_hypothesis(pool, at, time_us);
         if (one == RHO_OK) {
-            one = rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, gain_nat);
+            one = rho_imm_update_bearings(&at->imm, look, mixes, &gain_nat);
         }
         if (one == RHO_OK) {
-            one = rho_imm_update_slope(&at->imm, &pool->model, slope);
+            one = rho_imm_update_slope(&at->imm, &pool->model, &look->slope);
         }
-        if (has_used_bearing(*gain_nat) &&
-            (!has_used_bearing(least_nat) || *gain_nat < least_nat)) {
-            least_nat = *gain_nat;
-        }
+        at->weight_nat += gain_nat;
         status = end_update(pool, at, one, status);
-    }
-    /* hypotheses that could not use the bearing get the least gain: they have no advantage */
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        pool->nodes[pool->node_of[slot][i]].weight_nat +=
-            has_used_bearing(gains_nat[i]) ? gains_nat[i] : least_nat;
     }
     (void)prune_slot(pool, slot);
     return status;

@@ -161,10 +161,9 @@ static inline float plot_velocity_component(const struct rho_plot *plot, int axi
 }
 
 /*
- * Bayes update of the model probabilities by a scalar measurement, with innovation `off` and its
- * variance for each model (imm_likelihood.c). *gain_nat gets ln of the measurement's density.
+ * Bayes update of the manoeuvring model's probability by the likelihoods that both models give what
+ * was seen (imm_likelihood.c). Returns the likelihood over both.
  */
-void rho_imm_update_probability(struct rho_imm *imm, const float off[2], const float variance[2],
-                                float *gain_nat);
+float rho_imm_weigh_models(float *probability, const float likelihood[2]);
 
 #endif

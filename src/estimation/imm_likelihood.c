@@ -230,17 +230,14 @@ static inline float floored_probability(float share)
     return rho_larger(share, PROBABILITY_MIN);
 }
 
-void rho_imm_update_probability(struct rho_imm *imm, const float off[2], const float variance[2],
-                                float *gain_nat)
+float rho_imm_weigh_models(float *probability, const float likelihood[2])
 {
-    struct rho_imm_match match;
-    const float factor[2] = {floored_probability(1.0f - imm->probability) *
-                                 rho_inverse_sqrt(variance[0]),
-                             floored_probability(imm->probability) * rho_inverse_sqrt(variance[1])};
-    const float nis[2] = {off[0] * off[0] / variance[0], off[1] * off[1] / variance[1]};
-    combine_models(factor, nis, 1, &match);
-    imm->probability = match.probability;
-    *gain_nat = match.log_likelihood;
+    const float steady = floored_probability(1.0f - *probability) * likelihood[0];
+    const float manoeuvre = floored_probability(*probability) * likelihood[1];
+    if (steady + manoeuvre > 0.0f) { /* else the measurement is all but impossible to both */
+        *probability = manoeuvre / (steady + manoeuvre);
+    }
+    return steady + manoeuvre;
 }
 
 /* Returns 0 where neither model's NIS is in the gate, or the density is not usable. */

@@ -305,34 +305,112 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
     return status;
 }
 
-enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m, float bearing_rad,
-                                       float sigma_rad, float *gain_nat)
+/* How far a bearing is off where a model expects it, the variance of that, and its slope's. */
+struct expected_bearing {
+    float off_rad, variance_rad2;
+    float slope_density, slope_nis;
+};
+
+/* Steady model first. Returns 0 where a model's estimate is nearer than a metre to the sensor. */
+static int expect_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
+                          unsigned i, struct expected_bearing by[2])
 {
-    struct rho_kalman at;
-    struct rho_kalman_bearing bearings[2];
-    float variance[2], projected[RHO_KALMAN_STATES];
-    load_kinematics(&at, imm->state, imm->covariance);
-    *gain_nat = 0.0f;
-    if (!rho_kalman_linearise_bearing(&imm->steady, x_m, y_m, bearing_rad, sigma_rad,
-                                      &bearings[0]) ||
-        !rho_kalman_linearise_bearing(&at, x_m, y_m, bearing_rad, sigma_rad, &bearings[1])) {
+    const struct rho_bearing_scan *scan = look->scan;
+    const struct rho_bearing *bearing = &scan->bearings[i];
+    const float sigma_rad = rho_sqrt(bearing->sigma_rad * bearing->sigma_rad + look->lasting_rad2);
+    struct rho_kalman manoeuvre;
+    float projected[RHO_KALMAN_STATES];
+    load_kinematics(&manoeuvre, imm->state, imm->covariance);
+    const struct rho_kalman *models[2] = {&imm->steady, &manoeuvre};
+    const struct rho_slope slope = rho_measurement_slope(scan, bearing);
+    for (int k = 0; k < 2; k++) {
+        struct rho_kalman_bearing seen;
+        if (!rho_kalman_linearise_bearing(models[k], scan->x_m, scan->y_m, bearing->bearing_rad,
+                                          sigma_rad, &seen)) {
+            return 0;
+        }
+        by[k].off_rad = seen.off_m / seen.range_m;
+        by[k].variance_rad2 =
+            (rho_linalg_project6(models[k]->covariance, seen.row, projected) + seen.variance_m2) /
+            (seen.range_m * seen.range_m);
+        by[k].slope_density = rho_kalman_slope_density(models[k], &slope, &by[k].slope_nis);
+    }
+    return 1;
+}
+
+int rho_imm_score_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
+                          unsigned i, float *density, float *variance_rad2)
+{
+    struct expected_bearing by[2];
+    float likelihood[2], probability = imm->probability;
+    int is_in_gate = 0;
+    if (!expect_bearing(imm, look, i, by)) {
+        return 0;
+    }
+    for (int k = 0; k < 2; k++) {
+        const float nis = by[k].off_rad * by[k].off_rad / by[k].variance_rad2;
+        likelihood[k] = by[k].slope_density * rho_exp(-0.5f * (nis + RHO_LOG_TWO_PI)) *
+                        rho_inverse_sqrt(by[k].variance_rad2);
+        is_in_gate |= nis <= RHO_IMM_GATE && by[k].slope_nis <= RHO_IMM_GATE;
+    }
+    *density = rho_imm_weigh_models(&probability, likelihood);
+    *variance_rad2 =
+        by[0].variance_rad2 + probability * (by[1].variance_rad2 - by[0].variance_rad2);
+    return is_in_gate;
+}
+
+void rho_imm_mix_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
+                         unsigned i, struct rho_bearing_mix mixes[2])
+{
+    const float sigma_rad = look->scan->bearings[i].sigma_rad;
+    struct expected_bearing by[2];
+    for (int k = 0; k < 2 && expect_bearing(imm, look, i, by); k++) {
+        rho_bearing_mix_add(&mixes[k], look->weight[i] * by[k].slope_density, by[k].off_rad,
+                            by[k].variance_rad2,
+                            sigma_rad * sigma_rad + look->lasting_in_estimate_rad2);
+    }
+}
+
+/* Updates one model's estimate with the mix of a look's bearings that it expects. */
+static enum rho_status update_by_mix(struct rho_imm *imm, int model,
+                                     const struct rho_weighed_bearings *look,
+                                     const struct rho_bearing_mix *mix)
+{
+    struct rho_kalman manoeuvre, *at = &imm->steady;
+    struct rho_kalman_bearing seen;
+    float off_rad, sigma_rad;
+    if (model > 0) {
+        load_kinematics(&manoeuvre, imm->state, imm->covariance);
+        at = &manoeuvre;
+    }
+    if (!rho_bearing_mix_as_one(mix, look->miss, &off_rad, &sigma_rad) ||
+        !rho_kalman_linearise_bearing(at, look->scan->x_m, look->scan->y_m, 0.0f, sigma_rad,
+                                      &seen)) {
         return RHO_OK;
     }
-    variance[0] = rho_linalg_project6(imm->steady.covariance, bearings[0].row, projected) +
-                  bearings[0].variance_m2;
-    variance[1] =
-        rho_linalg_project6(at.covariance, bearings[1].row, projected) + bearings[1].variance_m2;
     imm->is_coupled = 1;
-    enum rho_status status = rho_kalman_update_row(&imm->steady, bearings[0].row, bearings[0].off_m,
-                                                   bearings[0].variance_m2);
+    return model == 0
+               ? rho_kalman_update_row(at, seen.row, off_rad * seen.range_m, seen.variance_m2)
+               : rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2, seen.row,
+                                       off_rad * seen.range_m, seen.variance_m2);
+}
+
+enum rho_status rho_imm_update_bearings(struct rho_imm *imm,
+                                        const struct rho_weighed_bearings *look,
+                                        const struct rho_bearing_mix mixes[2], float *gain_nat)
+{
+    const float likelihood[2] = {look->miss + mixes[0].hit, look->miss + mixes[1].hit};
+    *gain_nat = 0.0f;
+    if (!rho_are_finite(likelihood, 2)) {
+        return RHO_ERROR_VALUE;
+    }
+    enum rho_status status = update_by_mix(imm, 0, look, &mixes[0]);
     if (status == RHO_OK) {
-        status = rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2,
-                                       bearings[1].row, bearings[1].off_m, bearings[1].variance_m2);
+        status = update_by_mix(imm, 1, look, &mixes[1]);
     }
     rho_kalman_floor_variances(imm->covariance, RHO_IMM_STATES);
     if (status == RHO_OK) {
-        const float innovations_m[2] = {bearings[0].off_m, bearings[1].off_m};
-        rho_imm_update_probability(imm, innovations_m, variance, gain_nat);
+        *gain_nat = rho_log(rho_imm_weigh_models(&imm->probability, likelihood) + FLT_MIN);
     }
     return status;
 }

@@ -380,6 +380,21 @@ int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho
     return 1;
 }
 
+float rho_kalman_slope_density(const struct rho_kalman *kalman, const struct rho_slope *slope,
+                               float *nis)
+{
+    struct rho_kalman_bearing seen;
+    float projected[RHO_KALMAN_STATES];
+    *nis = 0.0f;
+    if (!rho_kalman_has_axis(kalman, RHO_Z) || !rho_kalman_linearise_slope(kalman, slope, &seen)) {
+        return 1.0f;
+    }
+    const float variance_m2 =
+        rho_linalg_project6(kalman->covariance, seen.row, projected) + seen.variance_m2;
+    *nis = seen.off_m * seen.off_m / variance_m2;
+    return seen.range_m * rho_exp(-0.5f * (*nis + RHO_LOG_TWO_PI)) * rho_inverse_sqrt(variance_m2);
+}
+
 enum rho_status rho_kalman_open_height(struct rho_kalman *kalman,
                                        const struct rho_kalman_bearing *seen,
                                        float velocity_variance)

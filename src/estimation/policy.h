@@ -78,6 +78,13 @@
  */
 #define PROBABILITY_MIN 1.0e-9f
 
+/*
+ * Least information of a mix of bearings, over that of a certain one, that changes an estimate,
+ * bearing_mix.c. Half: looks that tell nothing cost updates. Twice: faint bearings among many are
+ * not used.
+ */
+#define MIX_GAIN_MIN 0.1f
+
 /* What follows: body_extent_filter.c. */
 
 /*

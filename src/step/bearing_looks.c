@@ -87,48 +87,72 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
     }
 }
 
-static struct rho_bearing gated_bearing(const struct rho_look *look, uint32_t i)
-{
-    struct rho_bearing bearing = look->bearings->bearings[i];
-    bearing.sigma_rad = rho_sqrt(bearing.sigma_rad * bearing.sigma_rad + look->lasting_rad2);
-    return bearing;
-}
+/* ln of a bearing's density where a track expects it, and its variance. */
+struct scored_bearing {
+    float log_density, variance_rad2;
+};
 
-/*
- * ln of a bearing's density where its track is expected. Slopes of false bearings are taken to have
- * the density 1: they are as likely anywhere within a slope of one.
- */
-static float density_nat(const struct rho_gate_result *at)
+/* Scores a bearing by all models and hypotheses, as plots are; without them by the one filter. */
+static int is_in_gate(const struct rho_look *look, const struct rho_track *track,
+                      const struct rho_weighed_bearings *weighed, uint32_t i,
+                      struct scored_bearing *at)
 {
-    return at->slope_nat - 0.5f * (RHO_LOG_TWO_PI + at->log_det + at->distance2);
+    const struct rho_bearing_scan *scan = look->bearings;
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        float density;
+        if (!rho_hypotheses_score_bearing(look->model.hypotheses, track->slot, weighed, i, &density,
+                                          &at->variance_rad2)) {
+            return 0;
+        }
+        at->log_density = rho_log(density);
+        return 1;
+    }
+    struct rho_bearing bearing = scan->bearings[i];
+    bearing.sigma_rad = rho_sqrt(bearing.sigma_rad * bearing.sigma_rad + weighed->lasting_rad2);
+    /* the update by an earlier look of the frame may have moved the track from the frame's time */
+    bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
+    rho_score_open_gate(look, track, 0, &gate);
+    if (!rho_gate_test_bearing(&gate, scan, &bearing, &result)) {
+        return 0;
+    }
+    at->log_density =
+        result.slope_nat - 0.5f * (RHO_LOG_TWO_PI + result.log_det + result.distance2);
+    at->variance_rad2 = rho_exp(result.log_det);
+    return 1;
 }
 
 /* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
-static int score_bearing(const struct rho_look *look, const struct rho_gate *gate,
-                         const struct rho_track *track, float log_pd, uint32_t i,
-                         struct rho_gate_result *at, float *gain_nat)
+static int score_bearing(const struct rho_look *look, const struct rho_track *track,
+                         const struct rho_weighed_bearings *weighed, float log_pd, uint32_t i,
+                         struct scored_bearing *at, float *gain_nat)
 {
-    const struct rho_bearing_scan *scan = look->bearings;
-    struct rho_bearing bearing = gated_bearing(look, i);
-    /* the update by an earlier look of the frame may have moved the track from the frame's time */
-    bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
-    if (look->fates[i] != RHO_FATE_HELD || !rho_gate_test_bearing(gate, scan, &bearing, at)) {
+    if (look->fates[i] != RHO_FATE_HELD || !is_in_gate(look, track, weighed, i, at)) {
         return 0;
     }
-    *gain_nat = log_pd + density_nat(at) - look->log_false_bearings;
+    *gain_nat = log_pd + at->log_density - look->log_false_bearings;
     return 1;
+}
+
+static struct rho_weighed_bearings unweighed_bearings(const struct rho_look *look)
+{
+    return (struct rho_weighed_bearings){.scan = look->bearings,
+                                         .miss = 1.0f,
+                                         .lasting_rad2 = look->lasting_rad2,
+                                         .lasting_in_estimate_rad2 =
+                                             look->lasting_looks * look->lasting_rad2};
 }
 
 static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *look, unsigned row)
 {
     const struct rho_track *track = &tracker->tracks[row];
     const struct detection seen = rho_look_detection(look, track);
-    struct rho_gate_result at;
-    struct rho_gate gate;
+    const struct rho_weighed_bearings unweighed = unweighed_bearings(look);
+    struct scored_bearing at;
     float gain_nat;
-    rho_score_open_gate(look, track, 0, &gate);
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (score_bearing(look, &gate, track, seen.log_pd, i, &at, &gain_nat) &&
+        if (score_bearing(look, track, &unweighed, seen.log_pd, i, &at, &gain_nat) &&
             gain_nat > seen.log_miss) {
             rho_score_add_pair(tracker, row, i, gain_nat - seen.log_miss);
         }
@@ -136,12 +160,13 @@ static void offer_bearings(struct rho_tracker *tracker, const struct rho_look *l
 }
 
 /* The bearings in a track's gate, weighed by their probabilities. */
-struct bearing_mix {
-    struct rho_track_bearing as_one; /* the one bearing that changes the estimate as they all do */
-    float hit;                       /* probability that one of them is the track's */
-    float seeing;                    /* share of targets that no other track's bearing covers */
+struct gated_bearings {
+    struct rho_weighed_bearings weighed;
+    int16_t row;       /* the one of most weight; -1: none is in the gate */
+    int is_claimed;    /* it is more probable than all else */
+    float hit;         /* probability that one of them is the track's */
+    float seeing;      /* share of targets that no other track's bearing covers */
     float gain_nat;    /* ln of the likelihood of them all, or a miss, over that of clutter */
-    float share;       /* information of the mix, over that of a certain bearing */
     float density_nat; /* ln of the density of the one of most weight */
 };
 
@@ -163,83 +188,54 @@ static float free_share(const struct rho_tracker *tracker, unsigned row, uint32_
     return 1.0f - tracker->tracks[owner].visible * own / sum;
 }
 
-/* Bearing from the scan's sensor to where the track is expected at that time. */
-static float expected_bearing_rad(const struct rho_bearing_scan *scan,
-                                  const struct rho_track *track, int64_t time_us)
-{
-    const float *state = track->kalman.state;
-    const float dt_s = rho_seconds_between(track->time_us, time_us);
-    return rho_atan2(state[1] + state[4] * dt_s - scan->y_m,
-                     state[0] + state[3] * dt_s - scan->x_m);
-}
-
 /*
- * Mixes the bearings in a track's gate, as probabilistic data association does ("Bearings are
- * weighed" in src/DESIGN.md, with these letters). A bearing of more than half of W is claimed.
- * Where another track's bearing lies, a target may be behind it, and its miss says nothing.
+ * Weighs the bearings in a track's gate ("Bearings are weighed" in src/DESIGN.md, with these
+ * letters). A bearing of more than half of W is claimed. Where another track's bearing lies, a
+ * target may be behind it, and its miss says nothing.
  */
-static struct bearing_mix mix_bearings(const struct rho_tracker *tracker,
-                                       const struct rho_look *look, unsigned row)
+static struct gated_bearings weigh_bearings(const struct rho_tracker *tracker,
+                                            const struct rho_look *look, unsigned row)
 {
     const struct rho_bearing_scan *scan = look->bearings;
     const struct rho_track *track = &tracker->tracks[row];
     const struct detection seen = rho_look_detection(look, track);
-    struct bearing_mix mix = {.as_one = {.time_us = track->time_us,
-                                         .sensor_id = scan->sensor_id,
-                                         .x_m = scan->x_m,
-                                         .y_m = scan->y_m,
-                                         .row = -1}};
-    float sum = rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)
-                    ? rho_exp(seen.log_miss)
-                    : 1.0f;
-    const float lasting_rad2 = look->lasting_looks * look->lasting_rad2;
-    float covered = 0.0f, hit = 0.0f, mean = 0.0f, square = 0.0f, noise = 0.0f, total = 0.0f,
-          best = 0.0f;
-    struct rho_gate gate;
-    rho_score_open_gate(look, track, 0, &gate);
+    struct gated_bearings found = {.weighed = unweighed_bearings(look), .row = -1};
+    const float missed =
+        rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)
+            ? rho_exp(seen.log_miss)
+            : 1.0f;
+    const float pd_over_false = rho_exp(seen.log_pd - look->log_false_bearings);
+    float covered = 0.0f, hit = 0.0f, best = 0.0f;
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        const struct rho_bearing *bearing = &scan->bearings[i];
-        struct rho_gate_result at;
+        struct scored_bearing at;
         float gain_nat;
-        if (!score_bearing(look, &gate, track, seen.log_pd, i, &at, &gain_nat)) {
+        if (!score_bearing(look, track, &found.weighed, seen.log_pd, i, &at, &gain_nat)) {
             continue;
         }
         const float left = free_share(tracker, row, i);
-        covered = rho_larger(covered, (1.0f - left) * rho_exp(-0.5f * at.distance2));
         const float weight = left * rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
-        const int64_t time_us = scan->time_us + bearing->offset_us;
-        const float off_rad =
-            rho_angle_wrap(bearing->bearing_rad - expected_bearing_rad(scan, track, time_us));
+        /* how near it is: its density over that of a bearing at the centre */
+        const float log_centre = -0.5f * (RHO_LOG_TWO_PI + rho_log(at.variance_rad2));
+        const float nearness = rho_exp(rho_smaller(at.log_density - log_centre, 0.0f));
+        covered = rho_larger(covered, (1.0f - left) * nearness);
+        found.weighed.weight[i] = left * pd_over_false;
         hit += weight;
-        mean += weight * off_rad;
-        square += weight * off_rad * off_rad;
-        noise += weight * (bearing->sigma_rad * bearing->sigma_rad + lasting_rad2);
-        total += weight * rho_exp(at.log_det);
         if (weight > best) {
             best = weight;
-            mix.density_nat = density_nat(&at);
-            mix.as_one.row = (int16_t)i;
-            mix.as_one.time_us = time_us;
+            found.density_nat = at.log_density;
+            found.row = (int16_t)i;
         }
     }
-    sum += covered * (1.0f - sum) + hit;
-    mix.seeing = 1.0f - covered;
-    mix.hit = hit / sum;
-    mix.gain_nat = rho_log(sum);
-    mix.as_one.row = (int16_t)(best > 0.5f * sum ? mix.as_one.row : -1);
-    if (mix.as_one.row >= 0) {
-        mix.as_one.slope = rho_measurement_slope(scan, &scan->bearings[mix.as_one.row]);
+    found.weighed.miss = missed + covered * (1.0f - missed);
+    const float sum = found.weighed.miss + hit;
+    found.seeing = 1.0f - covered;
+    found.hit = hit / sum;
+    found.gain_nat = rho_log(sum);
+    found.is_claimed = best > 0.5f * sum;
+    if (found.is_claimed) {
+        found.weighed.slope = rho_measurement_slope(scan, &scan->bearings[found.row]);
     }
-    if (hit > 0.0f) {
-        const float variance = total / hit;
-        mean /= sum;
-        mix.share = hit / sum - (square / sum - mean * mean) / variance;
-        const float share = rho_larger(mix.share, MIX_SHARE_MIN);
-        mix.as_one.bearing_rad =
-            rho_angle_wrap(expected_bearing_rad(scan, track, mix.as_one.time_us) + mean / share);
-        mix.as_one.sigma_rad = rho_sqrt(variance / share - (variance - noise / hit));
-    }
-    return mix;
+    return found;
 }
 
 /*
@@ -254,14 +250,13 @@ static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
         const struct rho_track *track = &tracker->tracks[i];
         if (track->status != RHO_TRACK_FREE && rho_look_has_in_view(look, i) &&
             rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
-            const struct bearing_mix mix = mix_bearings(tracker, look, i);
-            rho_pd_count(row, track->visible * mix.seeing, mix.hit);
+            const struct gated_bearings found = weigh_bearings(tracker, look, i);
+            rho_pd_count(row, track->visible * found.seeing, found.hit);
         }
     }
     rho_pd_open(look, row);
 }
 
-/* A look that tells next to nothing of a track leaves its estimate alone; its score counts all. */
 static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look,
                                struct rho_tracker_sensor *own, struct rho_batch_owner *owners)
 {
@@ -271,22 +266,22 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
         if (track->status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
             continue;
         }
-        const struct bearing_mix mix = mix_bearings(tracker, look, row);
-        const int32_t gain_mnat = rho_score_to_mnat(mix.gain_nat);
-        unclaimed -= mix.hit;
-        if (mix.as_one.row >= 0 && own) {
+        const struct gated_bearings found = weigh_bearings(tracker, look, row);
+        const int32_t gain_mnat = rho_score_to_mnat(found.gain_nat);
+        unclaimed -= found.hit;
+        if (found.is_claimed && own) {
             rho_bearing_errors_compare(look, &own->bearing_errors, track,
-                                       &look->bearings->bearings[mix.as_one.row]);
+                                       &look->bearings->bearings[found.row]);
         }
-        if (!(mix.share > MIX_SHARE_MIN)) {
+        if (found.row < 0) {
             rho_track_add_score(track, gain_mnat);
-        } else if (rho_track_update_bearing(track, &mix.as_one, &look->model, gain_mnat) !=
-                   RHO_OK) {
+        } else if (rho_track_update_bearings(track, &found.weighed, found.row, found.is_claimed,
+                                             &look->model, gain_mnat) != RHO_OK) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
-        } else if (mix.as_one.row >= 0) {
-            look->fates[mix.as_one.row] = RHO_FATE_CLAIMED;
+        } else if (found.is_claimed) {
+            look->fates[found.row] = RHO_FATE_CLAIMED;
             if (owners) {
-                owners[mix.as_one.row] = (struct rho_batch_owner){track->track_id, mix.density_nat};
+                owners[found.row] = (struct rho_batch_owner){track->track_id, found.density_nat};
             }
         }
     }

@@ -28,12 +28,6 @@
 
 /* bearing_looks.c */
 /*
- * Least information of a mix of bearings, over that of a certain one, that changes an estimate.
- * Half: looks that tell nothing cost updates. Twice: faint bearings among many are not used.
- */
-#define MIX_SHARE_MIN 0.1f
-
-/*
  * Sigmas by which noise may take a bearing out of its sensor's sector. Half: one bearing in forty
  * from the edge is left out. Twice: bearings that cannot have been measured are taken.
  */

@@ -19,10 +19,8 @@ void rho_score_open_gate(const struct rho_look *look, const struct rho_track *tr
 {
     struct rho_kalman expected;
     rho_track_estimate_for_gate(track, &expected);
-    rho_gate_open(gate, &expected,
-                  RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? look->model.input->noise_density
-                                                          : look->model.noise_density,
-                  look->sensor, measures);
+    rho_gate_open(gate, &expected, rho_track_noise_density(track, &look->model), look->sensor,
+                  measures);
 }
 
 void rho_score_add_pair(struct rho_tracker *tracker, unsigned row, uint32_t column, float gain_nat)

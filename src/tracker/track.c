@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "look.h"
+#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
 const char *rho_track_status_name(enum rho_track_status status)
@@ -213,6 +214,12 @@ void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalma
     } else {
         *expected = track->kalman;
     }
+}
+
+float rho_track_noise_density(const struct rho_track *track, const struct rho_track_model *model)
+{
+    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? model->input->noise_density
+                                                   : model->noise_density;
 }
 
 static enum rho_status update_filter(struct rho_track *track, const struct rho_track_plot *seen,
@@ -490,27 +497,74 @@ enum rho_status rho_track_commit_scan(struct rho_track *track,
     return RHO_OK;
 }
 
-static enum rho_status update_by_bearing(struct rho_track *track,
-                                         const struct rho_track_bearing *bearing,
-                                         const struct rho_track_model *model)
+/* Mixes a look's bearings as an estimate at from_us expects them at their own times. */
+static enum rho_status mix_bearings(const struct rho_kalman *estimate, int64_t from_us,
+                                    float noise_density, const struct rho_weighed_bearings *look,
+                                    struct rho_bearing_mix *mix)
 {
-    const float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
+    const struct rho_bearing_scan *scan = look->scan;
+    enum rho_status status = RHO_OK;
+    for (unsigned i = 0; i < RHO_MAX_BEARINGS && status == RHO_OK; i++) {
+        if (look->weight[i] > 0.0f) {
+            const struct rho_bearing *bearing = &scan->bearings[i];
+            const float noise_rad2 = bearing->sigma_rad * bearing->sigma_rad;
+            const float dt_s = rho_seconds_between(from_us, scan->time_us + bearing->offset_us);
+            struct rho_kalman at = *estimate;
+            struct rho_kalman_bearing seen;
+            float projected[RHO_KALMAN_STATES], nis;
+            status = rho_kalman_predict(&at, dt_s, noise_density);
+            if (status == RHO_OK &&
+                rho_kalman_linearise_bearing(&at, scan->x_m, scan->y_m, bearing->bearing_rad,
+                                             rho_sqrt(noise_rad2 + look->lasting_rad2), &seen)) {
+                const float variance_m2 =
+                    rho_linalg_project6(at.covariance, seen.row, projected) + seen.variance_m2;
+                const struct rho_slope slope = rho_measurement_slope(scan, bearing);
+                rho_bearing_mix_add(
+                    mix, look->weight[i] * rho_kalman_slope_density(&at, &slope, &nis),
+                    seen.off_m / seen.range_m, variance_m2 / (seen.range_m * seen.range_m),
+                    noise_rad2 + look->lasting_in_estimate_rad2);
+            }
+        }
+    }
+    return status == RHO_OK && !rho_is_finite(mix->hit) ? RHO_ERROR_VALUE : status;
+}
+
+static enum rho_status update_by_bearings(struct rho_track *track,
+                                          const struct rho_weighed_bearings *look, int64_t time_us,
+                                          const struct rho_track_model *model)
+{
+    const struct rho_bearing_scan *scan = look->scan;
+    const float dt_s = rho_seconds_between(track->time_us, time_us);
+    const float noise_density = rho_track_noise_density(track, model);
+    struct rho_bearing_mix mix = {.hit = 0.0f};
+    struct rho_kalman at;
     enum rho_status status;
+    float off_rad, sigma_rad;
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        status = rho_hypotheses_update_bearing(model->hypotheses, track->slot, bearing->time_us,
-                                               bearing->x_m, bearing->y_m, bearing->bearing_rad,
-                                               bearing->sigma_rad, &bearing->slope);
-        /* merged at once, so that the gate for the next sensor's bearings is narrower */
-        rho_track_merge_estimates(track, bearing->time_us, model);
-    } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        status = rho_hypotheses_update_bearings(model->hypotheses, track->slot, time_us, look);
+        /* merged at once, for the next sensor's bearings */
+        rho_track_merge_estimates(track, time_us, model);
+        return status;
+    }
+    rho_track_estimate_for_gate(track, &at);
+    status = mix_bearings(&at, track->time_us, noise_density, look, &mix);
+    if (status == RHO_OK) {
+        status = rho_kalman_predict(&at, dt_s, noise_density);
+    }
+    if (status != RHO_OK || !rho_bearing_mix_as_one(&mix, look->miss, &off_rad, &sigma_rad)) {
+        return status;
+    }
+    const float bearing_rad = rho_angle_wrap(
+        rho_atan2(at.state[RHO_Y] - scan->y_m, at.state[RHO_X] - scan->x_m) + off_rad);
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         struct rho_input input = track->input;
         status = rho_input_predict(&input, model->input, dt_s);
         if (status == RHO_OK) {
-            status = rho_input_update_bearing(&input, model->input, bearing->x_m, bearing->y_m,
-                                              bearing->bearing_rad, bearing->sigma_rad);
+            status = rho_input_update_bearing(&input, model->input, scan->x_m, scan->y_m,
+                                              bearing_rad, sigma_rad);
         }
         if (status == RHO_OK) {
-            status = rho_input_update_slope(&input, model->input, &bearing->slope);
+            status = rho_input_update_slope(&input, model->input, &look->slope);
         }
         if (status == RHO_OK) {
             track->input = input;
@@ -521,44 +575,42 @@ static enum rho_status update_by_bearing(struct rho_track *track,
         struct rho_kalman kalman = track->kalman;
         status = rho_kalman_predict(&kalman, dt_s, model->noise_density);
         if (status == RHO_OK) {
-            status = rho_kalman_update_bearing(&kalman, bearing->x_m, bearing->y_m,
-                                               bearing->bearing_rad, bearing->sigma_rad);
+            status =
+                rho_kalman_update_bearing(&kalman, scan->x_m, scan->y_m, bearing_rad, sigma_rad);
         }
         if (status == RHO_OK) {
-            status = rho_kalman_update_slope(&kalman, &bearing->slope,
-                                             rho_square(model->speed_sigma_mps));
+            status =
+                rho_kalman_update_slope(&kalman, &look->slope, rho_square(model->speed_sigma_mps));
         }
         if (status == RHO_OK) {
             track->kalman = kalman;
         }
     }
+    track->time_us = status == RHO_OK ? time_us : track->time_us;
     return status;
 }
 
-enum rho_status rho_track_update_bearing(struct rho_track *track,
-                                         const struct rho_track_bearing *bearing,
-                                         const struct rho_track_model *model, int32_t gain_mnat)
+enum rho_status rho_track_update_bearings(struct rho_track *track,
+                                          const struct rho_weighed_bearings *look, int16_t row,
+                                          int is_claimed, const struct rho_track_model *model,
+                                          int32_t gain_mnat)
 {
-    if (!track || !bearing || !model) {
+    if (!track || !look || !model) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = update_by_bearing(track, bearing, model);
+    const int64_t time_us = look->scan->time_us + look->scan->bearings[row].offset_us;
+    enum rho_status status = update_by_bearings(track, look, time_us, model);
     if (status != RHO_OK) {
         return status;
     }
-    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) { /* else merging has set the time */
-        track->time_us = bearing->time_us;
-    }
-    if (bearing->row < 0) { /* of several bearings, none of which is claimed */
-        rho_track_add_score(track, gain_mnat);
-        return RHO_OK;
-    }
-    store_velocity_after_hit(track, track->plot < 0);
-    if (track->plot < 0) {
-        count_hit(track);
-    }
-    store_claimed_plot(track, bearing->time_us, bearing->sensor_id, bearing->row);
     rho_track_add_score(track, gain_mnat);
-    rho_track_apply_event(track, RHO_TRACK_UPDATE);
+    if (is_claimed) {
+        store_velocity_after_hit(track, track->plot < 0);
+        if (track->plot < 0) {
+            count_hit(track);
+        }
+        store_claimed_plot(track, time_us, look->scan->sensor_id, row);
+        rho_track_apply_event(track, RHO_TRACK_UPDATE);
+    }
     return RHO_OK;
 }

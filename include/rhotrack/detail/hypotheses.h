@@ -267,15 +267,23 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool
                                                      int64_t time_us);
 
 /*
- * Updates all hypotheses with a bearing that is known to be the target's, and the slope that comes
- * with it, and their weights by the bearing's likelihood; those much lighter than the best are
- * removed. Stack: 800 bytes.
+ * Scores bearing i of a look with all hypotheses, moved to its time: returns 1 where it is in the
+ * gate of one, and fills its density a radian, and the mean variance of what explains it. Weights
+ * of the look are not read. Cost: 450 instructions a hypothesis, and rho_imm_predict_unmixed at
+ * another time. Stack: 600 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool,
-                                                             uint16_t slot, int64_t time_us,
-                                                             float x_m, float y_m,
-                                                             float bearing_rad, float sigma_rad,
-                                                             const struct rho_slope *slope);
+int rho_hypotheses_score_bearing(struct rho_hypotheses *pool, uint16_t slot,
+                                 const struct rho_weighed_bearings *look, unsigned i,
+                                 float *density, float *variance_rad2);
+
+/*
+ * Updates all hypotheses, moved to time_us, with a look's bearings of weights above 0, and their
+ * weights by the likelihood of the look; those much lighter than the best are removed. Errors: as
+ * rho_hypotheses_update. Stack: 900 bytes.
+ */
+RHO_MUST_CHECK enum rho_status
+rho_hypotheses_update_bearings(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                               const struct rho_weighed_bearings *look);
 
 /*
  * Fills *estimate with the mean over all hypotheses of a slot, moved to time_us. Errors:

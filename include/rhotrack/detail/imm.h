@@ -33,6 +33,7 @@
 
 #include <stdint.h>
 
+#include "rhotrack/detail/bearing_mix.h"
 #include "rhotrack/detail/kalman.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
@@ -231,14 +232,28 @@ RHO_MUST_CHECK enum rho_status rho_imm_update(struct rho_imm *imm,
                                               const struct rho_imm_match *match);
 
 /*
- * Updates both models with a bearing from a place, and their probabilities by the likelihoods of
- * the bearing. *gain_nat gets ln of the bearing's density in metres across the line of sight. An
- * estimate nearer than a metre to the place has no bearing: nothing is done, *gain_nat is 0,
- * RHO_OK. Errors: as rho_imm_update. Stack: 600 bytes.
+ * Scores bearing i of a look at the estimate's time: returns 1 where it is in the gate of either
+ * model, and fills its density a radian, and the mean variance of the models that explain it.
+ * Stack: 400 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m,
-                                                      float bearing_rad, float sigma_rad,
-                                                      float *gain_nat);
+int rho_imm_score_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
+                          unsigned i, float *density, float *variance_rad2);
+
+/*
+ * Adds bearing i of a look to the mixes of both models, at the estimate's time; an estimate nearer
+ * than a metre to the sensor has no bearing, and nothing is added. Stack: 400 bytes.
+ */
+void rho_imm_mix_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
+                         unsigned i, struct rho_bearing_mix mixes[2]);
+
+/*
+ * Updates each model with its mix of a look's bearings, and their probabilities by the likelihoods
+ * of the look; *gain_nat gets ln of it. Errors: as rho_imm_update. Stack: 600 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_imm_update_bearings(struct rho_imm *imm,
+                                                       const struct rho_weighed_bearings *look,
+                                                       const struct rho_bearing_mix mixes[2],
+                                                       float *gain_nat);
 
 /*
  * Updates both models with a slope, or gives them a height where they have none; it tells nothing

@@ -190,6 +190,14 @@ int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho
                                struct rho_kalman_bearing *seen);
 
 /*
+ * Density of a slope where an estimate expects it, and its NIS; 1 and 0 for a slope that is not
+ * measured, and without a height: slopes of false bearings are as likely anywhere within a slope of
+ * 1. Cost: about 150 instructions. Stack: 120 bytes.
+ */
+float rho_kalman_slope_density(const struct rho_kalman *kalman, const struct rho_slope *slope,
+                               float *nis);
+
+/*
  * Gives an estimate without one the height of a slope linearised at it, or at a better one; its
  * errors go with those of the range. Errors: as rho_kalman_open_axis. Stack: 80 bytes.
  */

@@ -235,15 +235,8 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
 /* The prediction for a gate, widened as an input may have begun since. Stack: 140 bytes. */
 void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalman *expected);
 
-/* A bearing with its time, sensor and row. */
-struct rho_track_bearing {
-    int64_t time_us; /* the bearing's own time */
-    int32_t sensor_id;
-    float x_m, y_m; /* place of the sensor */
-    float bearing_rad, sigma_rad;
-    struct rho_slope slope; /* that of its elevation */
-    int16_t row;            /* row of the bearing in its scan */
-};
+/* White acceleration, m^2/s^3, between an estimate for a gate and an own time. Constant cost. */
+float rho_track_noise_density(const struct rho_track *track, const struct rho_track_model *model);
 
 /*
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us by `hits`
@@ -257,16 +250,18 @@ rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
                          uint16_t hits, const struct rho_track_model *model, int32_t score_mnat);
 
 /*
- * Updates a track with a bearing: predicts to the bearing's time, and updates by a scalar update.
- * Bearings of several sensors in one step count as one hit: the first one, while plot is -1.
- * gain_mnat is added to the score. rho_track_merge_estimates decides which inputs are present.
- * Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its hypotheses.
- * Cost: two predictions and an update. Stack: 1.2 KB.
+ * Updates a track with the bearings of a look of weights above 0, by their mix: predicts to the
+ * time of the one in `row`, and updates by a scalar update. The track claims that one if
+ * is_claimed. Bearings of several sensors in one step count as one hit: the first one, while plot
+ * is -1. gain_mnat is added to the score. rho_track_merge_estimates decides which inputs are
+ * present. Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its
+ * hypotheses. Cost: two predictions and an update, and a prediction a bearing. Stack: 1.4 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
-                                                        const struct rho_track_bearing *bearing,
-                                                        const struct rho_track_model *model,
-                                                        int32_t gain_mnat);
+RHO_MUST_CHECK enum rho_status rho_track_update_bearings(struct rho_track *track,
+                                                         const struct rho_weighed_bearings *look,
+                                                         int16_t row, int is_claimed,
+                                                         const struct rho_track_model *model,
+                                                         int32_t gain_mnat);
 
 /* Keeps a claimed plot's place, for bearings to be compared with it. Constant cost. */
 void rho_track_keep_plot(struct rho_track *track, const struct rho_plot *plot);

@@ -9,10 +9,9 @@
 
 #include "rhotrack/detail/hypotheses.h"
 
-#define NUM(array) (sizeof(array) / sizeof((array)[0]))
+#include "one_bearing.h"
 
-/* a bearing without elevation */
-static const struct rho_slope level = {.sigma = 0.0f};
+#define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
 static struct rho_hypotheses pool, copy;
 
@@ -643,9 +642,11 @@ static void a_plot_or_bearing_that_is_too_old_changes_nothing(void **state)
         scan_with_plots_for_eight_hypotheses(&pool, slot, 1.0, 100.0f, 0.0f);
         const unsigned num = rho_hypotheses_count(&pool, slot);
         memcpy(&copy, &pool, sizeof pool);
+        struct one_bearing at;
         const enum rho_status status =
-            is_bearing ? rho_hypotheses_update_bearing(&pool, slot, INT64_C(-300000000), 0.0f,
-                                                       -5000.0f, 1.57f, 0.01f, &level)
+            is_bearing ? rho_hypotheses_update_bearings(
+                             &pool, slot, INT64_C(-300000000),
+                             one_bearing(&at, INT64_C(-300000000), 0.0f, -5000.0f, 1.57f, 0.01f))
                        : rho_hypotheses_update(&pool, slot, &seen, INT64_C(-300000000));
         assert_int_equal(status, RHO_ERROR_VALUE);
         assert_int_equal(pool.updates_refused, num);
@@ -678,14 +679,16 @@ static void a_bearing_reorders_the_hypotheses_by_likelihood(void **state)
         float gain_nat;
 
         assert_int_equal(
-            rho_imm_update_bearing(&imm, -21.0f, -9000.0f, 1.5707963f, 1e-4f, &gain_nat), RHO_OK);
+            update_imm_by_bearing(&imm, -21.0f, -9000.0f, 1.5707963f, 1e-4f, &gain_nat), RHO_OK);
         expected[i] = (double)rho_hypotheses_at(&pool, slot, i)->weight_nat + gain_nat;
         best = fmax(best, expected[i]);
     }
     memcpy(&copy, &pool, sizeof pool);
-    assert_int_equal(rho_hypotheses_update_bearing(&pool, slot, 2000000, -21.0f, -9000.0f,
-                                                   1.5707963f, 1e-4f, &level),
-                     RHO_OK);
+    struct one_bearing from;
+    assert_int_equal(
+        rho_hypotheses_update_bearings(
+            &pool, slot, 2000000, one_bearing(&from, 2000000, -21.0f, -9000.0f, 1.5707963f, 1e-4f)),
+        RHO_OK);
     assert_int_equal(rho_hypotheses_at(&pool, slot, 0)->picks[2], 1);
     assert_weights_fall_from_zero(&pool, slot);
     for (unsigned i = 0; i < num; ++i) {
@@ -714,6 +717,7 @@ static void arguments_are_checked(void **state)
     struct rho_hypotheses_outcome outcome;
     struct rho_hypotheses_estimate estimate;
     struct rho_imm_plot seen;
+    struct one_bearing at;
     uint16_t slot = 7;
     float gain_nat = 7.0f;
 
@@ -731,9 +735,11 @@ static void arguments_are_checked(void **state)
         assert_int_equal(rho_hypotheses_predict(&pool, none, 0), RHO_ERROR_STATE);
         assert_int_equal(rho_hypotheses_commit(&pool, none, &scan, &outcome), RHO_ERROR_STATE);
         assert_int_equal(rho_hypotheses_update(&pool, none, &seen, 0), RHO_ERROR_STATE);
+        assert_int_equal(rho_hypotheses_update_bearings(
+                             &pool, none, 0, one_bearing(&at, 0, 0.0f, 0.0f, 0.0f, 0.1f)),
+                         RHO_ERROR_STATE);
         assert_int_equal(
-            rho_hypotheses_update_bearing(&pool, none, 0, 0.0f, 0.0f, 0.0f, 0.1f, &level),
-            RHO_ERROR_STATE);
+            rho_hypotheses_score_bearing(&pool, none, &at.look, 0, &gain_nat, &gain_nat), 0);
         assert_int_equal(rho_hypotheses_estimate(&pool, none, 0, &estimate), RHO_ERROR_STATE);
         assert_int_equal(
             rho_hypotheses_score_plot(&pool, none, &seen, 0, 0, 0.0f, &thin, &gain_nat), 0);

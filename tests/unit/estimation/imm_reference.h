@@ -669,7 +669,7 @@ static inline void reference_update(struct reference *r, const struct rho_imm_mo
 
 /*
  * Updates with a bearing, in metres across the line of sight; the linearisation error counts as
- * noise. Returns the log density over both models.
+ * noise. Returns the log density a radian over both models.
  */
 static inline double reference_update_bearing_and_log_density(struct reference *r, double x,
                                                               double y, double bearing,
@@ -693,7 +693,7 @@ static inline double reference_update_bearing_and_log_density(struct reference *
         z[which].h[0][1] = ux;
         z[which].y[0] = range * remainder(bearing - atan2(dy, dx), 6.283185307179586);
         z[which].r[0][0] = pow(sigma * range, 2) + (across * along + both * both) / (range * range);
-        log_density[which] = wide_log_density(m, &z[which], &distance2);
+        log_density[which] = wide_log_density(m, &z[which], &distance2) + log(range);
     }
     reference_combine_densities(r->probability, log_density, &match);
     wide_update(&r->models[0], &z[0]);

@@ -8,6 +8,7 @@
 
 #include "dense_filter.h"
 #include "imm_reference.h"
+#include "one_bearing.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -557,7 +558,7 @@ static void update_pair_with_bearing(struct pair *pair, const struct truth *trut
     float gain_nat = 0.0f;
 
     assert_int_equal(
-        rho_imm_update_bearing(&pair->imm, from->x_m, from->y_m, bearing_rad, sigma_rad, &gain_nat),
+        update_imm_by_bearing(&pair->imm, from->x_m, from->y_m, bearing_rad, sigma_rad, &gain_nat),
         RHO_OK);
     keep_largest(&pair->by_step.log_likelihood,
                  gain_nat - reference_update_bearing_and_log_density(&same, from->x_m, from->y_m,
@@ -959,16 +960,20 @@ static void a_bearing_from_the_targets_place_changes_nothing(void **state)
     const struct rho_imm_model model = model_with_memory(5.0);
     struct truth truth = random_truth(200.0);
     const struct rho_kalman first = random_first_estimate(&truth, 2);
-    float gain_nat = 7.0f;
+    struct rho_bearing_mix mixes[2] = {{.hit = 0.0f}, {.hit = 0.0f}};
+    struct one_bearing at;
+    float gain_nat, density, variance_rad2;
     struct rho_imm imm;
 
     (void)state;
     rho_imm_start(&imm, &model, &first);
     const struct rho_imm before = imm;
-    assert_int_equal(
-        rho_imm_update_bearing(&imm, first.state[0], first.state[1], 0.3f, 0.01f, &gain_nat),
-        RHO_OK);
-    assert_true(gain_nat == 0.0f);
+    const struct rho_weighed_bearings *look =
+        one_bearing_in_row(&at, 0, 0, first.state[0], first.state[1], 0.3f, 0.01f, 0.5f);
+    assert_int_equal(rho_imm_score_bearing(&imm, look, 0, &density, &variance_rad2), 0);
+    rho_imm_mix_bearing(&imm, look, 0, mixes);
+    assert_int_equal(rho_imm_update_bearings(&imm, look, mixes, &gain_nat), RHO_OK);
+    assert_float_equal(gain_nat, (float)log(0.5), 1e-6f); /* that of a miss */
     assert_memory_equal(&imm, &before, sizeof imm);
 }
 

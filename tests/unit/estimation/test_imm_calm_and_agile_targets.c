@@ -8,6 +8,8 @@
 
 #include "rhotrack/detail/imm.h"
 
+#include "one_bearing.h"
+
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
 static struct rho_imm_model test_model(void)
@@ -114,7 +116,7 @@ static void only_predictions_with_mixing_change_the_calm_share(void **state)
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
-    assert_int_equal(rho_imm_update_bearing(&imm, 0.0f, 5000.0f, -1.5f, 0.01f, &gain_nat), RHO_OK);
+    assert_int_equal(update_imm_by_bearing(&imm, 0.0f, 5000.0f, -1.5f, 0.01f, &gain_nat), RHO_OK);
     rho_imm_prepare_step(&step, &model, 0.4f);
     assert_int_equal(rho_imm_predict_unmixed(&imm, &step), RHO_OK);
     rho_imm_prepare_step(&step, &model, -0.4f);

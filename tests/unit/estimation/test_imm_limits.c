@@ -11,6 +11,8 @@
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/imm.h"
 
+#include "one_bearing.h"
+
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 #define PLACED RHO_TRIANGLE(RHO_IMM_STATES)
 
@@ -336,9 +338,9 @@ static enum rho_status make_random_call(struct rho_imm *imm, const struct rho_im
         return rho_imm_predict_unmixed(imm, &step);
     }
     if (choice < 0.55) {
-        return rho_imm_update_bearing(imm, (float)uniform(-1e5, 1e5), (float)uniform(-1e5, 1e5),
-                                      (float)uniform(-3.14, 3.14), random_power_of_ten(-6.0, -0.4),
-                                      &gain_nat);
+        return update_imm_by_bearing(imm, (float)uniform(-1e5, 1e5), (float)uniform(-1e5, 1e5),
+                                     (float)uniform(-3.14, 3.14), random_power_of_ten(-6.0, -0.4),
+                                     &gain_nat);
     }
     const struct rho_plot plot = random_hostile_plot(imm);
     const uint32_t measures = random_measures();
@@ -534,7 +536,7 @@ static void bearings_that_are_not_finite_are_refused(void **state)
         struct rho_imm imm = started_filter(&model, 3, 100.0f);
         float gain_nat;
 
-        assert_int_equal(rho_imm_update_bearing(&imm, 0.0f, 0.0f, bad[k], 0.1f, &gain_nat),
+        assert_int_equal(update_imm_by_bearing(&imm, 0.0f, 0.0f, bad[k], 0.1f, &gain_nat),
                          RHO_ERROR_VALUE);
     }
 }
@@ -593,7 +595,7 @@ static void a_model_of_probability_zero_can_recover(void **state)
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_true(match.probability == 0.0f && match.log_likelihood < -20.0f);
-    assert_int_equal(rho_imm_update_bearing(&imm, 1000.0f, -8000.0f, 1.5707963f, 1e-3f, &gain_nat),
+    assert_int_equal(update_imm_by_bearing(&imm, 1000.0f, -8000.0f, 1.5707963f, 1e-3f, &gain_nat),
                      RHO_OK);
     assert_true(imm.probability < 1e-6f && isfinite(gain_nat) && gain_nat < -10.0f);
     imm = before;

@@ -32,18 +32,17 @@ static void a_range_rate_is_predicted_from_a_metre_of_range_on(void **state)
 /* A likelihood ratio of 10^9 raises the probability of the model that had none to a half. */
 static void a_model_of_probability_zero_keeps_a_billionth(void **state)
 {
-    static const float variance[2] = {4.0f, 4.0f};
-    const float far = (float)sqrt(4.0 * 2.0 * log(1e9)), far_and_near[2] = {far, 0.0f},
-                near_and_far[2] = {0.0f, far};
-    struct rho_imm imm = {.probability = 0.0f};
-    float gain_nat;
+    static const float far_and_near[2] = {2e-9f, 2.0f}, near_and_far[2] = {2.0f, 2e-9f},
+                       neither[2] = {0.0f, 0.0f};
+    float probability = 0.0f;
     (void)state;
-    rho_imm_update_probability(&imm, far_and_near, variance, &gain_nat);
-    assert_true(fabs((double)imm.probability - 0.5) < 1e-3);
-    assert_true(fabs((double)gain_nat - log(2e-9 / sqrt(4.0 * 6.283185307))) < 1e-3);
-    imm.probability = 1.0f;
-    rho_imm_update_probability(&imm, near_and_far, variance, &gain_nat);
-    assert_true(fabs((double)imm.probability - 0.5) < 1e-3);
+    assert_true(fabs((double)rho_imm_weigh_models(&probability, far_and_near) / 4e-9 - 1.0) < 1e-3);
+    assert_true(fabs((double)probability - 0.5) < 1e-3);
+    probability = 1.0f;
+    assert_true(fabs((double)rho_imm_weigh_models(&probability, near_and_far) / 4e-9 - 1.0) < 1e-3);
+    assert_true(fabs((double)probability - 0.5) < 1e-3);
+    probability = 0.25f;
+    assert_true(rho_imm_weigh_models(&probability, neither) == 0.0f && probability == 0.25f);
 }
 
 int main(void)

@@ -11,6 +11,8 @@
 
 #include "rhotrack/detail/track.h"
 
+#include "one_bearing.h"
+
 #define START_US INT64_C(7000000)
 
 static const struct rho_track_model model = {.speed_sigma_mps = 300.0f, .noise_density = 1.0f};
@@ -38,9 +40,9 @@ static struct rho_track start_track(void)
 }
 
 /* A bearing from the origin to the estimate. */
-static struct rho_track_bearing bearing_at_time(int64_t time_us)
+static struct track_bearing bearing_at_time(int64_t time_us)
 {
-    return (struct rho_track_bearing){
+    return (struct track_bearing){
         .time_us = time_us, .sensor_id = 11, .bearing_rad = 0.787f, .sigma_rad = 0.002f, .row = 4};
 }
 
@@ -102,13 +104,13 @@ static void a_bearing_updates_the_track_at_its_own_time(void **state)
     for (int i = 0; i < 3; i++) {
         struct rho_track track = start_track();
         struct rho_kalman expected = track.kalman;
-        const struct rho_track_bearing bearing = bearing_at_time(times_us[i]);
+        const struct track_bearing bearing = bearing_at_time(times_us[i]);
         assert_int_equal(
             rho_kalman_predict(&expected, (float)(times_us[i] - START_US) * 1e-6f, 1.0f), RHO_OK);
         assert_int_equal(rho_kalman_update_bearing(&expected, 0.0f, 0.0f, bearing.bearing_rad,
                                                    bearing.sigma_rad),
                          RHO_OK);
-        assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 1500), RHO_OK);
+        assert_int_equal(update_track_by_bearing(&track, &bearing, &model, 1500), RHO_OK);
         assert_memory_equal(&track.kalman, &expected, sizeof expected);
         assert_true(track.time_us == times_us[i] && track.updated_us == times_us[i]);
         assert_int_equal(track.score_mnat, 7500);
@@ -124,13 +126,13 @@ static void bearings_of_one_step_count_as_one_hit(void **state)
 {
     (void)state;
     struct rho_track track = start_track();
-    struct rho_track_bearing bearing = bearing_at_time(START_US);
+    struct track_bearing bearing = bearing_at_time(START_US);
     rho_track_count_miss(&track, 100);
     rho_track_count_miss(&track, 100);
     assert_int_equal(track.misses_in_row, 2);
     for (int sensor = 0; sensor < 3; sensor++) {
         bearing.row = (int16_t)sensor;
-        assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 1000), RHO_OK);
+        assert_int_equal(update_track_by_bearing(&track, &bearing, &model, 1000), RHO_OK);
     }
     assert_int_equal(track.hits, 9);
     assert_int_equal(track.misses, 2);
@@ -138,11 +140,11 @@ static void bearings_of_one_step_count_as_one_hit(void **state)
     assert_int_equal(track.score_mnat, 6000 - 200 + 3000);
     assert_int_equal(track.plot, 2);
     track.plot = -1;
-    assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 1000), RHO_OK);
+    assert_int_equal(update_track_by_bearing(&track, &bearing, &model, 1000), RHO_OK);
     assert_int_equal(track.hits, 10);
     track.plot = -1;
     track.hits = UINT16_MAX;
-    assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 1000), RHO_OK);
+    assert_int_equal(update_track_by_bearing(&track, &bearing, &model, 1000), RHO_OK);
     assert_int_equal(track.hits, UINT16_MAX);
 }
 
@@ -150,14 +152,14 @@ static void a_bearing_ends_coasting_of_a_track(void **state)
 {
     (void)state;
     struct rho_track track = start_track();
-    const struct rho_track_bearing bearing = bearing_at_time(START_US);
-    assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, -20000), RHO_OK);
+    const struct track_bearing bearing = bearing_at_time(START_US);
+    assert_int_equal(update_track_by_bearing(&track, &bearing, &model, -20000), RHO_OK);
     assert_int_equal(track.status, RHO_TRACK_TENTATIVE); /* a bearing alone confirms no track */
     track = start_track();
     track.status = RHO_TRACK_CONFIRMED;
     rho_track_count_miss(&track, 100);
     assert_int_equal(track.status, RHO_TRACK_COASTING);
-    assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 100), RHO_OK);
+    assert_int_equal(update_track_by_bearing(&track, &bearing, &model, 100), RHO_OK);
     assert_int_equal(track.status, RHO_TRACK_CONFIRMED);
 }
 
@@ -166,12 +168,12 @@ static void a_bearing_of_no_row_is_no_hit(void **state)
 {
     (void)state;
     struct rho_track track = start_track(), sure = track;
-    struct rho_track_bearing bearing = bearing_at_time(START_US + 1000000);
+    struct track_bearing bearing = bearing_at_time(START_US + 1000000);
     track.status = RHO_TRACK_CONFIRMED;
     rho_track_count_miss(&track, 100);
-    assert_int_equal(rho_track_update_bearing(&sure, &bearing, &model, 700), RHO_OK);
+    assert_int_equal(update_track_by_bearing(&sure, &bearing, &model, 700), RHO_OK);
     bearing.row = -1;
-    assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 700), RHO_OK);
+    assert_int_equal(update_track_by_bearing(&track, &bearing, &model, 700), RHO_OK);
     assert_memory_equal(&track.kalman, &sure.kalman, sizeof sure.kalman);
     assert_true(track.time_us == START_US + 1000000);
     assert_true(track.updated_us == START_US);
@@ -183,11 +185,11 @@ static void a_bearing_of_no_row_is_no_hit(void **state)
     assert_int_equal(track.score_mnat, 6000 - 100 + 700);
 }
 
-static void expect_refused(struct rho_track track, const struct rho_track_bearing *bearing,
+static void expect_refused(struct rho_track track, const struct track_bearing *bearing,
                            enum rho_status expected_error)
 {
     const struct rho_track before = track;
-    assert_int_equal(rho_track_update_bearing(&track, bearing, &model, 100), expected_error);
+    assert_int_equal(update_track_by_bearing(&track, bearing, &model, 100), expected_error);
     assert_memory_equal(&track, &before, sizeof track);
 }
 
@@ -195,9 +197,9 @@ static void a_refused_bearing_changes_nothing(void **state)
 {
     (void)state;
     struct rho_track track = start_track();
-    struct rho_track_bearing bearing = bearing_at_time(START_US + 1000000);
-    assert_int_equal(rho_track_update_bearing(NULL, &bearing, &model, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_update_bearing(&track, &bearing, NULL, 0), RHO_ERROR_NULL);
+    struct track_bearing bearing = bearing_at_time(START_US + 1000000);
+    assert_int_equal(update_track_by_bearing(NULL, &bearing, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(update_track_by_bearing(&track, &bearing, NULL, 0), RHO_ERROR_NULL);
     expect_refused(track, NULL, RHO_ERROR_NULL);
     bearing.bearing_rad = NAN;
     expect_refused(track, &bearing, RHO_ERROR_VALUE);

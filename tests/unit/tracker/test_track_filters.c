@@ -14,6 +14,8 @@
 
 #include "rhotrack/detail/track.h"
 
+#include "one_bearing.h"
+
 #define SCAN_US 1000000
 #define SIGMA_M 5.0f
 
@@ -386,6 +388,9 @@ static void only_input_estimation_widens_the_gate(void **state)
         struct rho_track track = start_track();
         assert_int_equal(rho_track_predict(&track, 4 * SCAN_US, &model), RHO_OK);
         rho_track_estimate_for_gate(&track, &expected);
+        assert_float_equal(
+            rho_track_noise_density(&track, &model),
+            filter == RHO_TRACK_INPUT ? model.input->noise_density : model.noise_density, 0.0f);
         if (filter == RHO_TRACK_INPUT) {
             rho_input_gate_estimate(&track.input, &of_input);
             assert_memory_equal(&expected, &of_input, sizeof expected);
@@ -401,16 +406,16 @@ static void only_input_estimation_widens_the_gate(void **state)
 /* ---- updates by bearings --------------------------------------------------------------------- */
 
 /* The bearing of the target at scan k from (x, y), with 0.5 mrad sigma. */
-static struct rho_track_bearing bearing_from(float x_m, float y_m, int k)
+static struct track_bearing bearing_from(float x_m, float y_m, int k)
 {
     const struct rho_plot at = plot_of_scan(k).plot;
-    return (struct rho_track_bearing){.time_us = (int64_t)SCAN_US * k,
-                                      .sensor_id = 4,
-                                      .x_m = x_m,
-                                      .y_m = y_m,
-                                      .bearing_rad = atan2f(at.y_m - y_m, at.x_m - x_m),
-                                      .sigma_rad = 5e-4f,
-                                      .row = 1};
+    return (struct track_bearing){.time_us = (int64_t)SCAN_US * k,
+                                  .sensor_id = 4,
+                                  .x_m = x_m,
+                                  .y_m = y_m,
+                                  .bearing_rad = atan2f(at.y_m - y_m, at.x_m - x_m),
+                                  .sigma_rad = 5e-4f,
+                                  .row = 1};
 }
 
 /*
@@ -423,11 +428,11 @@ static void a_bearing_reduces_the_covariance_of_every_filter(void **state)
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
         set_filter((enum rho_track_filter)filter);
         struct rho_track track = start_track();
-        struct rho_track_bearing bearing = bearing_from(800.0f, -5000.0f, 4);
+        struct track_bearing bearing = bearing_from(800.0f, -5000.0f, 4);
         assert_int_equal(rho_track_predict(&track, bearing.time_us, &model), RHO_OK);
         rho_track_merge_estimates(&track, bearing.time_us, &model);
         assert_true(track.kalman.covariance[RHO_AT(0, 0)] > 20.0f);
-        assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 0), RHO_OK);
+        assert_int_equal(update_track_by_bearing(&track, &bearing, &model, 0), RHO_OK);
         assert_true(track.kalman.covariance[RHO_AT(0, 0)] < 6.3f);
         assert_float_equal(track.kalman.state[0], 800.0f, 3.0f);
     }
@@ -442,12 +447,12 @@ static void velocities_of_the_last_two_hits_are_kept(void **state)
         struct rho_track track = start_track();
         float before_mps = track.kalman.state[4];
         for (int k = 4; k < 9; k++) {
-            struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
-            struct rho_track_bearing east = bearing_from(7000.0f, 300.0f, k);
+            struct track_bearing south = bearing_from(800.0f, -5000.0f, k);
+            struct track_bearing east = bearing_from(7000.0f, 300.0f, k);
             track.plot = -1;
             assert_int_equal(rho_track_predict(&track, south.time_us, &model), RHO_OK);
-            assert_int_equal(rho_track_update_bearing(&track, &south, &model, 0), RHO_OK);
-            assert_int_equal(rho_track_update_bearing(&track, &east, &model, 0), RHO_OK);
+            assert_int_equal(update_track_by_bearing(&track, &south, &model, 0), RHO_OK);
+            assert_int_equal(update_track_by_bearing(&track, &east, &model, 0), RHO_OK);
             assert_float_equal(track.newest_mps[1], track.kalman.state[4], 0.0f);
             assert_float_equal(track.before_mps[1], before_mps, 0.0f);
             before_mps = track.kalman.state[4];
@@ -468,12 +473,12 @@ static void simultaneous_bearings_reveal_a_turn(void **state)
         set_filter((enum rho_track_filter)filter);
         struct rho_track track = start_track();
         for (int k = 4; k < 14; k++) {
-            struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
-            struct rho_track_bearing east = bearing_from(7000.0f, 300.0f, k);
+            struct track_bearing south = bearing_from(800.0f, -5000.0f, k);
+            struct track_bearing east = bearing_from(7000.0f, 300.0f, k);
             track.plot = -1;
             assert_int_equal(rho_track_predict(&track, south.time_us, &model), RHO_OK);
-            assert_int_equal(rho_track_update_bearing(&track, &south, &model, 0), RHO_OK);
-            assert_int_equal(rho_track_update_bearing(&track, &east, &model, 0), RHO_OK);
+            assert_int_equal(update_track_by_bearing(&track, &south, &model, 0), RHO_OK);
+            assert_int_equal(update_track_by_bearing(&track, &east, &model, 0), RHO_OK);
             rho_track_merge_estimates(&track, south.time_us, &model);
         }
         assert_float_equal(track.kalman.state[1], 15.0f * 81.0f, 5.0f);
