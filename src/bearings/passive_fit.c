@@ -56,17 +56,22 @@ static float squared_residuals(const struct rho_passive_match *nearest)
            rho_square(rho_passive_slope_residual(nearest));
 }
 
-/* Whether a state's element is a place, or else a displacement. */
-static int is_place(int element)
+/*
+ * Sigma of an element of a state before a bearing is seen, about the centroid and rest: half the
+ * largest range, or the way in half the batch at half the largest speed.
+ */
+static float prior_sigma_m(const struct rho_passive_search *search, int element)
 {
-    return element < RHO_PASSIVE_DX || element == RHO_PASSIVE_Z;
+    const struct rho_passive_config *config = &search->passive->config;
+    return 0.5f * (element < RHO_PASSIVE_DX || element == RHO_PASSIVE_Z
+                       ? config->range_max_m
+                       : config->v_max_mps * search->half_s);
 }
 
 struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_search *search,
                                                        const struct rho_passive_candidate *track)
 {
     const struct rho_batch *batch = &search->passive->batch;
-    float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
     struct rho_passive_equations equations = {.b = {0}};
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
@@ -81,9 +86,9 @@ struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_
         }
     }
     for (int i = 0; i < rho_passive_num_states(search); i++) {
-        float weight = is_place(i) ? 1.0f / rho_square(range_m) : 1.0f / rho_square(way_m);
+        const float weight = 1.0f / rho_square(prior_sigma_m(search, i));
         equations.a[RHO_AT(i, i)] += weight;
-        equations.b[i] -= is_place(i) ? 0.0f : weight * track->state_m[i];
+        equations.b[i] -= weight * track->state_m[i];
     }
     return equations;
 }
@@ -168,14 +173,16 @@ int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned sca
     return rho_angle_in_sector(rho_atan2(offset.y_m, offset.x_m), from_rad, to_rad);
 }
 
-/* True where score, chi-square, speed and sensors are those of a track. */
+/*
+ * True where score, chi-square, speed and sensors are those of a track; scalars: number of residuals
+ * in chi2. As the prior is a residual of each state, it takes no degree of freedom.
+ */
 static int is_track(const struct rho_passive_search *search,
                     const struct rho_passive_candidate *track, float chi2, int scalars)
 {
     const struct rho_passive *passive = search->passive;
     /* 99.9 % quantile of chi-square, 3.09 sigmas (approximation of Wilson and Hilferty) */
-    const int freedom = scalars - (scalars > (int)track->hits ? N : RHO_PASSIVE_Z);
-    float n = freedom > 0 ? (float)freedom : 1.0f, part = 2.0f / (9.0f * n);
+    const float n = (float)scalars, part = 2.0f / (9.0f * n);
     float root = 1.0f - part + 3.09f * rho_sqrt(part);
     float most_m = passive->config.v_max_mps * search->half_s;
     float way2_m2 =
@@ -228,8 +235,6 @@ float rho_passive_distance2(const struct rho_passive_search *search,
 static float score_of_prior(const struct rho_passive_search *search,
                             const struct rho_passive_candidate *track)
 {
-    const float place_m = 0.5f * search->passive->config.range_max_m;
-    const float way_m = 0.5f * search->passive->config.v_max_mps * search->half_s;
     const struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
     const int n = equations.num_slopes > 0 ? N : RHO_PASSIVE_Z;
     float factor[RHO_TRIANGLE(N)], score_nat = 0.0f;
@@ -237,7 +242,7 @@ static float score_of_prior(const struct rho_passive_search *search,
         return -1.0e6f; /* no covariance, no track */
     }
     for (int i = 0; i < n; i++) {
-        const float sigma_m = is_place(i) ? place_m : way_m;
+        const float sigma_m = prior_sigma_m(search, i);
         score_nat -= rho_log(factor[RHO_AT(i, i)] * sigma_m) +
                      0.5f * rho_square(track->state_m[i] / sigma_m);
     }

@@ -42,7 +42,7 @@
  * crossings has several times a bearing's error. Half: true hypotheses look empty. Twice: ghosts
  * agree with bearings of others.
  */
-#define MATCH_SIGMAS 9.0f
+#define MATCH_SIGMAS 6.0f
 
 /* candidate_list.c */
 
@@ -81,11 +81,6 @@
  * bearings pull the fit.
  */
 #define BEARING_GATE_SIGMAS 3.5f
-/*
- * Sigma of the weak prior of speed, which keeps fits from diverging. Half: fast targets are pulled
- * to rest where the bearings say little. Twice: poorly observed fits wander.
- */
-#define SPEED_PRIOR_MPS 500.0f
 /*
  * Sigma of the motion model: it limits the weight of bearings taken near a sensor. Half or twice:
  * four times more or less weight at most, felt only within some hundred metres.
