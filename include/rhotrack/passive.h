@@ -140,7 +140,7 @@ struct rho_passive {
     uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
     /* from here on: scratch memory of a search */
     /*
-     * directions near bearings of each look: bit set if a bearing is within 9 sigmas; bins count
+     * directions near bearings of each look: bit set if a bearing is within 6 sigmas; bins count
      * around |x| + |y| = 1 from south
      */
     uint32_t directions[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS / 32];

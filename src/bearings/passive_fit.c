@@ -174,8 +174,8 @@ int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned sca
 }
 
 /*
- * True where score, chi-square, speed and sensors are those of a track; scalars: number of residuals
- * in chi2. As the prior is a residual of each state, it takes no degree of freedom.
+ * True where score, chi-square, speed and sensors are those of a track; scalars: the residuals in
+ * chi2. States take no degrees of freedom: the prior is a residual of each.
  */
 static int is_track(const struct rho_passive_search *search,
                     const struct rho_passive_candidate *track, float chi2, int scalars)

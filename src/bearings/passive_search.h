@@ -114,7 +114,7 @@ struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passiv
                                                          const float state_m[RHO_PASSIVE_STATES]);
 /* A bearing of a look compared with the position of a state. */
 struct rho_passive_match {
-    /* index among the bearings of the look, from 0; -1: no bearing within nine sigmas */
+    /* index among the bearings of the look, from 0; -1: no bearing within six sigmas */
     int bearing;
     struct rho_passive_offset offset;
     float cross_range_m; /* distance of the state's position from the ray of the bearing, signed */
@@ -144,13 +144,13 @@ float rho_passive_residual(const struct rho_passive_match *match);
 /* The same of its slope; 0 where it has none. */
 float rho_passive_slope_residual(const struct rho_passive_match *match);
 /*
- * Marks, for each look, the directions within nine sigmas of a bearing, for a quick test. Needed
+ * Marks, for each look, the directions within six sigmas of a bearing, for a quick test. Needed
  * before states are matched with nearest bearings.
  */
 void rho_passive_mark_directions(struct rho_passive_search *search);
 /*
- * Agreement of a state with the bearings: sum over all looks of 1 - (residual / 9 sigmas)^2 of the
- * nearest bearing, or 0 beyond nine sigmas. Stops early, with a value of at most `least`, once the
+ * Agreement of a state with the bearings: sum over all looks of 1 - (residual / 6 sigmas)^2 of the
+ * nearest bearing, or 0 beyond six sigmas. Stops early, with a value of at most `least`, once the
  * sum cannot exceed `least`.
  */
 float rho_passive_agreement(const struct rho_passive_search *search,

@@ -40,7 +40,7 @@
 /*
  * Bearings farther than this from the predicted bearing never match: a hypothesis through two
  * crossings has several times a bearing's error. Half: true hypotheses look empty. Twice: ghosts
- * agree with bearings of others.
+ * agree with bearings of others, and take the places of the partners that are kept.
  */
 #define MATCH_SIGMAS 6.0f
 

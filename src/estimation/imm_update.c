@@ -305,69 +305,44 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
     return status;
 }
 
-/* How far a bearing is off where a model expects it, the variance of that, and its slope's. */
-struct expected_bearing {
-    float off_rad, variance_rad2;
-    float slope_density, slope_nis;
-};
-
-/* Steady model first. Returns 0 where a model's estimate is nearer than a metre to the sensor. */
-static int expect_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
-                          unsigned i, struct expected_bearing by[2])
+/* The estimate of a model, 0 the steady one; scratch is for the other's. */
+static struct rho_kalman *estimate_of(struct rho_kalman *scratch, const struct rho_imm *imm,
+                                      int model)
 {
-    const struct rho_bearing_scan *scan = look->scan;
-    const struct rho_bearing *bearing = &scan->bearings[i];
-    const float sigma_rad = rho_sqrt(bearing->sigma_rad * bearing->sigma_rad + look->lasting_rad2);
-    struct rho_kalman manoeuvre;
-    float projected[RHO_KALMAN_STATES];
-    load_kinematics(&manoeuvre, imm->state, imm->covariance);
-    const struct rho_kalman *models[2] = {&imm->steady, &manoeuvre};
-    const struct rho_slope slope = rho_measurement_slope(scan, bearing);
-    for (int k = 0; k < 2; k++) {
-        struct rho_kalman_bearing seen;
-        if (!rho_kalman_linearise_bearing(models[k], scan->x_m, scan->y_m, bearing->bearing_rad,
-                                          sigma_rad, &seen)) {
-            return 0;
-        }
-        by[k].off_rad = seen.off_m / seen.range_m;
-        by[k].variance_rad2 =
-            (rho_linalg_project6(models[k]->covariance, seen.row, projected) + seen.variance_m2) /
-            (seen.range_m * seen.range_m);
-        by[k].slope_density = rho_kalman_slope_density(models[k], &slope, &by[k].slope_nis);
+    *scratch = imm->steady;
+    if (model > 0) {
+        load_kinematics(scratch, imm->state, imm->covariance);
     }
-    return 1;
+    return scratch;
 }
 
 int rho_imm_score_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
                           unsigned i, float *density, float *variance_rad2)
 {
-    struct expected_bearing by[2];
-    float likelihood[2], probability = imm->probability;
-    int is_in_gate = 0;
-    if (!expect_bearing(imm, look, i, by)) {
-        return 0;
-    }
+    struct rho_expected_bearing by[2];
+    struct rho_kalman at;
+    float probability = imm->probability;
     for (int k = 0; k < 2; k++) {
-        const float nis = by[k].off_rad * by[k].off_rad / by[k].variance_rad2;
-        likelihood[k] = by[k].slope_density * rho_exp(-0.5f * (nis + RHO_LOG_TWO_PI)) *
-                        rho_inverse_sqrt(by[k].variance_rad2);
-        is_in_gate |= nis <= RHO_IMM_GATE && by[k].slope_nis <= RHO_IMM_GATE;
+        if (!rho_bearing_expect(estimate_of(&at, imm, k), look, i, &by[k])) {
+            return 0;
+        }
     }
-    *density = rho_imm_weigh_models(&probability, likelihood);
+    const float densities[2] = {by[0].density, by[1].density};
+    *density = rho_imm_weigh_models(&probability, densities);
     *variance_rad2 =
         by[0].variance_rad2 + probability * (by[1].variance_rad2 - by[0].variance_rad2);
-    return is_in_gate;
+    return by[0].nis <= RHO_IMM_GATE || by[1].nis <= RHO_IMM_GATE;
 }
 
 void rho_imm_mix_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
                          unsigned i, struct rho_bearing_mix mixes[2])
 {
-    const float sigma_rad = look->scan->bearings[i].sigma_rad;
-    struct expected_bearing by[2];
-    for (int k = 0; k < 2 && expect_bearing(imm, look, i, by); k++) {
-        rho_bearing_mix_add(&mixes[k], look->weight[i] * by[k].slope_density, by[k].off_rad,
-                            by[k].variance_rad2,
-                            sigma_rad * sigma_rad + look->lasting_in_estimate_rad2);
+    struct rho_expected_bearing by[2];
+    struct rho_kalman at;
+    if (rho_bearing_expect(estimate_of(&at, imm, 0), look, i, &by[0]) &&
+        rho_bearing_expect(estimate_of(&at, imm, 1), look, i, &by[1])) {
+        rho_bearing_mix_add(&mixes[0], look, i, &by[0]);
+        rho_bearing_mix_add(&mixes[1], look, i, &by[1]);
     }
 }
 
@@ -376,23 +351,19 @@ static enum rho_status update_by_mix(struct rho_imm *imm, int model,
                                      const struct rho_weighed_bearings *look,
                                      const struct rho_bearing_mix *mix)
 {
-    struct rho_kalman manoeuvre, *at = &imm->steady;
+    struct rho_kalman at;
     struct rho_kalman_bearing seen;
     float off_rad, sigma_rad;
-    if (model > 0) {
-        load_kinematics(&manoeuvre, imm->state, imm->covariance);
-        at = &manoeuvre;
-    }
     if (!rho_bearing_mix_as_one(mix, look->miss, &off_rad, &sigma_rad) ||
-        !rho_kalman_linearise_bearing(at, look->scan->x_m, look->scan->y_m, 0.0f, sigma_rad,
-                                      &seen)) {
+        !rho_kalman_linearise_bearing(estimate_of(&at, imm, model), look->scan->x_m,
+                                      look->scan->y_m, 0.0f, sigma_rad, &seen)) {
         return RHO_OK;
     }
     imm->is_coupled = 1;
-    return model == 0
-               ? rho_kalman_update_row(at, seen.row, off_rad * seen.range_m, seen.variance_m2)
-               : rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2, seen.row,
-                                       off_rad * seen.range_m, seen.variance_m2);
+    return model == 0 ? rho_kalman_update_row(&imm->steady, seen.row, off_rad * seen.range_m,
+                                              seen.variance_m2)
+                      : rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2,
+                                              seen.row, off_rad * seen.range_m, seen.variance_m2);
 }
 
 enum rho_status rho_imm_update_bearings(struct rho_imm *imm,

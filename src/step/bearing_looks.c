@@ -92,45 +92,17 @@ struct scored_bearing {
     float log_density, variance_rad2;
 };
 
-/* Scores a bearing by all models and hypotheses, as plots are; without them by the one filter. */
-static int is_in_gate(const struct rho_look *look, const struct rho_track *track,
-                      const struct rho_weighed_bearings *weighed, uint32_t i,
-                      struct scored_bearing *at)
-{
-    const struct rho_bearing_scan *scan = look->bearings;
-    struct rho_gate gate;
-    struct rho_gate_result result;
-    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        float density;
-        if (!rho_hypotheses_score_bearing(look->model.hypotheses, track->slot, weighed, i, &density,
-                                          &at->variance_rad2)) {
-            return 0;
-        }
-        at->log_density = rho_log(density);
-        return 1;
-    }
-    struct rho_bearing bearing = scan->bearings[i];
-    bearing.sigma_rad = rho_sqrt(bearing.sigma_rad * bearing.sigma_rad + weighed->lasting_rad2);
-    /* the update by an earlier look of the frame may have moved the track from the frame's time */
-    bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
-    rho_score_open_gate(look, track, 0, &gate);
-    if (!rho_gate_test_bearing(&gate, scan, &bearing, &result)) {
-        return 0;
-    }
-    at->log_density =
-        result.slope_nat - 0.5f * (RHO_LOG_TWO_PI + result.log_det + result.distance2);
-    at->variance_rad2 = rho_exp(result.log_det);
-    return 1;
-}
-
 /* *gain_nat: ln of pd times the bearing's density, over that of false ones. 0: outside the gate. */
 static int score_bearing(const struct rho_look *look, const struct rho_track *track,
                          const struct rho_weighed_bearings *weighed, float log_pd, uint32_t i,
                          struct scored_bearing *at, float *gain_nat)
 {
-    if (look->fates[i] != RHO_FATE_HELD || !is_in_gate(look, track, weighed, i, at)) {
+    float density;
+    if (look->fates[i] != RHO_FATE_HELD ||
+        !rho_track_score_bearing(track, &look->model, weighed, i, &density, &at->variance_rad2)) {
         return 0;
     }
+    at->log_density = rho_log(density);
     *gain_nat = log_pd + at->log_density - look->log_false_bearings;
     return 1;
 }

@@ -497,36 +497,35 @@ enum rho_status rho_track_commit_scan(struct rho_track *track,
     return RHO_OK;
 }
 
-/* Mixes a look's bearings as an estimate at from_us expects them at their own times. */
-static enum rho_status mix_bearings(const struct rho_kalman *estimate, int64_t from_us,
-                                    float noise_density, const struct rho_weighed_bearings *look,
-                                    struct rho_bearing_mix *mix)
+/* As rho_bearing_expect, by an estimate at from_us, at the bearing's own time. */
+static int expect_bearing(struct rho_kalman estimate, int64_t from_us, float noise_density,
+                          const struct rho_weighed_bearings *look, unsigned i,
+                          struct rho_expected_bearing *expected)
 {
-    const struct rho_bearing_scan *scan = look->scan;
-    enum rho_status status = RHO_OK;
-    for (unsigned i = 0; i < RHO_MAX_BEARINGS && status == RHO_OK; i++) {
-        if (look->weight[i] > 0.0f) {
-            const struct rho_bearing *bearing = &scan->bearings[i];
-            const float noise_rad2 = bearing->sigma_rad * bearing->sigma_rad;
-            const float dt_s = rho_seconds_between(from_us, scan->time_us + bearing->offset_us);
-            struct rho_kalman at = *estimate;
-            struct rho_kalman_bearing seen;
-            float projected[RHO_KALMAN_STATES], nis;
-            status = rho_kalman_predict(&at, dt_s, noise_density);
-            if (status == RHO_OK &&
-                rho_kalman_linearise_bearing(&at, scan->x_m, scan->y_m, bearing->bearing_rad,
-                                             rho_sqrt(noise_rad2 + look->lasting_rad2), &seen)) {
-                const float variance_m2 =
-                    rho_linalg_project6(at.covariance, seen.row, projected) + seen.variance_m2;
-                const struct rho_slope slope = rho_measurement_slope(scan, bearing);
-                rho_bearing_mix_add(
-                    mix, look->weight[i] * rho_kalman_slope_density(&at, &slope, &nis),
-                    seen.off_m / seen.range_m, variance_m2 / (seen.range_m * seen.range_m),
-                    noise_rad2 + look->lasting_in_estimate_rad2);
-            }
-        }
+    const int64_t time_us = look->scan->time_us + look->scan->bearings[i].offset_us;
+    return rho_kalman_predict(&estimate, rho_seconds_between(from_us, time_us), noise_density) ==
+               RHO_OK &&
+           rho_bearing_expect(&estimate, look, i, expected);
+}
+
+int rho_track_score_bearing(const struct rho_track *track, const struct rho_track_model *model,
+                            const struct rho_weighed_bearings *look, unsigned i, float *density,
+                            float *variance_rad2)
+{
+    struct rho_expected_bearing expected;
+    struct rho_kalman at;
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return rho_hypotheses_score_bearing(model->hypotheses, track->slot, look, i, density,
+                                            variance_rad2);
     }
-    return status == RHO_OK && !rho_is_finite(mix->hit) ? RHO_ERROR_VALUE : status;
+    rho_track_estimate_for_gate(track, &at);
+    if (!expect_bearing(at, track->time_us, rho_track_noise_density(track, model), look, i,
+                        &expected)) {
+        return 0;
+    }
+    *density = expected.density;
+    *variance_rad2 = expected.variance_rad2;
+    return expected.nis <= RHO_GATE_CHI2_1D;
 }
 
 static enum rho_status update_by_bearings(struct rho_track *track,
@@ -547,10 +546,17 @@ static enum rho_status update_by_bearings(struct rho_track *track,
         return status;
     }
     rho_track_estimate_for_gate(track, &at);
-    status = mix_bearings(&at, track->time_us, noise_density, look, &mix);
-    if (status == RHO_OK) {
-        status = rho_kalman_predict(&at, dt_s, noise_density);
+    for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
+        struct rho_expected_bearing expected;
+        if (look->weight[i] > 0.0f &&
+            expect_bearing(at, track->time_us, noise_density, look, i, &expected)) {
+            rho_bearing_mix_add(&mix, look, i, &expected);
+        }
     }
+    if (!rho_is_finite(mix.hit)) {
+        return RHO_ERROR_VALUE;
+    }
+    status = rho_kalman_predict(&at, dt_s, noise_density);
     if (status != RHO_OK || !rho_bearing_mix_as_one(&mix, look->miss, &off_rad, &sigma_rad)) {
         return status;
     }

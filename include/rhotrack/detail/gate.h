@@ -78,7 +78,6 @@ struct rho_gate_result {
     float log_det;   /* ln det of the innovation covariance, m^2 an axis, (m/s)^2 of a range rate */
     int has_z;       /* 1: height is one of the tested dimensions */
     int has_range_rate; /* 1: range rate is one of the tested dimensions */
-    float slope_nat;    /* of a bearing: ln of its slope's density; 0: not measured, or no height */
 };
 
 /*
@@ -106,15 +105,6 @@ void rho_gate_box(const struct rho_gate *gate, float sigma_max_m, float offset_m
  */
 int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
                   struct rho_gate_result *result);
-
-/*
- * Tests a bearing of a scan, one dimension: returns 1 and fills *result where the bearing is in the
- * gate, else 0; log_det is of rad^2. The height of a track that has one is tested against the
- * bearing's slope by itself. Cost: about 200 instructions, 400 with a slope, and a prediction for a
- * bearing with an own time. Stack: 320 bytes.
- */
-int rho_gate_test_bearing(const struct rho_gate *gate, const struct rho_bearing_scan *scan,
-                          const struct rho_bearing *bearing, struct rho_gate_result *result);
 
 RHO_END_C
 

@@ -239,6 +239,15 @@ void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalma
 float rho_track_noise_density(const struct rho_track *track, const struct rho_track_model *model);
 
 /*
+ * Scores bearing i of a look by all models and hypotheses of a track, as plots are, or by its one
+ * filter: returns 1 where it is in the gate, and fills its density, and the mean variance of what
+ * explains it. Weights of the look are not read. Stack: 650 bytes.
+ */
+int rho_track_score_bearing(const struct rho_track *track, const struct rho_track_model *model,
+                            const struct rho_weighed_bearings *look, unsigned i, float *density,
+                            float *variance_rad2);
+
+/*
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us by `hits`
  * scans, with the filter that the model asks for; sensor_id is one of the sensors of these scans.
  * Errors: NULL, CONFIG (the filter is none of RHO_FILTERS), CAPACITY (the pool of hypotheses),

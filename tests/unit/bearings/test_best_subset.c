@@ -34,6 +34,7 @@ static void begin_candidates(void)
     passive.batch.num_scans = 8;
     passive.batch.num_sensors = 1;
     passive.config.range_max_m = 100e3f;
+    passive.config.v_max_mps = 450.0f;
     for (unsigned k = 0; k < 8; k++) {
         passive.batch.bearings[k][0][0] =
             (struct rho_batch_bearing){.cosine = 1.0f, .sigma_rad = 1e-3f};

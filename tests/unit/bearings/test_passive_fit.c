@@ -14,7 +14,7 @@
 #include "../../src/bearings/passive_search.h"
 #include "passive_scene.h"
 
-static struct rho_passive passive = {.config = {.range_max_m = 1000.0f}};
+static struct rho_passive passive = {.config = {.range_max_m = 1000.0f, .v_max_mps = 100.0f}};
 static struct rho_passive_search search = {.passive = &passive, .half_s = 10.0f};
 
 /* Without bearings the displacement goes to 0 in steps of a tenth of the range, 1000 m. */

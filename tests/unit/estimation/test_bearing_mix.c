@@ -13,6 +13,22 @@
 
 #include "one_bearing.h"
 
+/* Adds a bearing of this weight, variance and noise. */
+static void add_to_mix(struct rho_bearing_mix *mix, float weight, float off_rad,
+                       float variance_rad2, float noise_rad2)
+{
+    const struct rho_bearing bearing = {.sigma_rad = sqrtf(0.25f * noise_rad2)};
+    const struct rho_bearing_scan scan = {.num_bearings = 1, .bearings = &bearing};
+    const struct rho_weighed_bearings look = {
+        .scan = &scan, .weight = {weight}, .lasting_in_estimate_rad2 = 0.75f * noise_rad2};
+    const double share = exp(-0.5 * (double)off_rad * (double)off_rad / (double)variance_rad2);
+    const struct rho_expected_bearing expected = {
+        .off_rad = off_rad,
+        .variance_rad2 = variance_rad2,
+        .density = (float)(share / sqrt(2.0 * 3.14159265358979 * (double)variance_rad2))};
+    rho_bearing_mix_add(mix, &look, 0, &expected);
+}
+
 /* Mean and variance after a scalar state of variance P has taken the one bearing. */
 static void update_scalar(double variance, double noise, double off, double *mean, double *after)
 {
@@ -41,7 +57,7 @@ static void one_bearing_leaves_the_moments_of_the_mixture(void **state)
         hit += share;
         mean += share * at;
         square += share * (after + at * at);
-        rho_bearing_mix_add(&mix, (float)weight[i], (float)off[i], (float)s, (float)noise);
+        add_to_mix(&mix, (float)weight[i], (float)off[i], (float)s, (float)noise);
     }
     mean /= sum;
     assert_true(fabs((double)mix.hit / hit - 1.0) < 1e-4);
@@ -57,7 +73,7 @@ static void a_sure_bearing_is_itself(void **state)
     struct rho_bearing_mix mix = {.hit = 0.0f};
     float off_rad, sigma_rad;
     (void)state;
-    rho_bearing_mix_add(&mix, 0.7f, 0.003f, 5e-6f, 4e-6f);
+    add_to_mix(&mix, 0.7f, 0.003f, 5e-6f, 4e-6f);
     assert_int_equal(rho_bearing_mix_as_one(&mix, 0.0f, &off_rad, &sigma_rad), 1);
     assert_float_equal(off_rad, 0.003f, 1e-7f);
     assert_float_equal(sigma_rad, 0.002f, 1e-7f);
@@ -69,9 +85,9 @@ static void looks_that_tell_next_to_nothing_are_left_out(void **state)
     struct rho_bearing_mix none = {.hit = 0.0f}, faint = none, sides = none;
     float off_rad, sigma_rad;
     (void)state;
-    rho_bearing_mix_add(&faint, 1e-4f, 0.0f, 4e-6f, 1e-6f);
-    rho_bearing_mix_add(&sides, 1.0f, 0.003f, 4e-6f, 1e-6f);
-    rho_bearing_mix_add(&sides, 1.0f, -0.003f, 4e-6f, 1e-6f);
+    add_to_mix(&faint, 1e-4f, 0.0f, 4e-6f, 1e-6f);
+    add_to_mix(&sides, 1.0f, 0.003f, 4e-6f, 1e-6f);
+    add_to_mix(&sides, 1.0f, -0.003f, 4e-6f, 1e-6f);
     assert_int_equal(rho_bearing_mix_as_one(&none, 0.1f, &off_rad, &sigma_rad), 0);
     assert_int_equal(rho_bearing_mix_as_one(&faint, 1.0f, &off_rad, &sigma_rad), 0);
     assert_int_equal(rho_bearing_mix_as_one(&sides, 0.0f, &off_rad, &sigma_rad), 0);

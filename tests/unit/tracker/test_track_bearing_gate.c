@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The gate of bearings: distance, determinant, limit, own times and elevations, compared with the
- * linearised filter in double precision.
+ * The gate of bearings of a track with one filter: density, variance, limit, own times and
+ * elevations, compared with the linearised filter in double precision.
  */
 #include "dense_filter_bearing_measurement.h"
 #include "dense_filter_slope_measurement.h"
 #include "kalman_checks.h"
-#include "rhotrack/detail/gate.h"
+#include "rhotrack/detail/track.h"
 
 #define NUM_CASES 6000
 #define NOISE 2.0f /* spectral density of white acceleration, m^2/s^3 */
@@ -23,12 +23,34 @@ struct expected {
     double distance2, log_det;
 };
 
+/* The track's result: ln of the density of bearing and slope, and the bearing's variance. */
+struct result {
+    double log_density, variance;
+};
+
+/* Scores a bearing of a scan at time 0 by the track of a plain Kalman filter. */
+static int test_gate(const struct rho_kalman *kalman, const struct rho_bearing_scan *place,
+                     const struct rho_bearing *bearing, struct result *result)
+{
+    const struct rho_track track = {.filter = RHO_TRACK_KALMAN, .kalman = *kalman};
+    const struct rho_track_model model = {.noise_density = NOISE};
+    struct rho_bearing_scan scan = *place;
+    float density = 1.0f, variance = 1.0f;
+
+    scan.num_bearings = 1;
+    scan.bearings = bearing;
+    const struct rho_weighed_bearings look = {.scan = &scan};
+    const int is_in = rho_track_score_bearing(&track, &model, &look, 0, &density, &variance);
+    *result = (struct result){log((double)density), variance};
+    return is_in;
+}
+
 /* Tests a bearing of a sensor at this place. */
-static int is_in_gate(const struct rho_gate *gate, const struct rho_bearing *bearing, float x_m,
-                      float y_m, struct rho_gate_result *result)
+static int is_in_gate(const struct rho_kalman *kalman, const struct rho_bearing *bearing, float x_m,
+                      float y_m, struct result *result)
 {
     const struct rho_bearing_scan scan = {.x_m = x_m, .y_m = y_m};
-    return rho_gate_test_bearing(gate, &scan, bearing, result);
+    return test_gate(kalman, &scan, bearing, result);
 }
 
 static struct expected expected_gate(const struct rho_kalman *kalman,
@@ -97,21 +119,20 @@ static void the_distance_agrees_with_the_linearised_filter(void **state)
         const struct rho_kalman kalman = random_estimate(place);
         const struct rho_bearing bearing = random_bearing_near(&kalman, place, n);
         const struct expected expected = expected_gate(&kalman, &bearing, place);
-        struct rho_gate gate;
-        struct rho_gate_result result = {.has_z = 1, .has_range_rate = 1};
+        struct result result;
 
-        rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-        const int is_in = is_in_gate(&gate, &bearing, 2000.0f, -7000.0f, &result);
+        const int is_in = is_in_gate(&kalman, &bearing, 2000.0f, -7000.0f, &result);
         if (fabs(expected.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3) {
             assert_int_equal(is_in, expected.distance2 < (double)RHO_GATE_CHI2_1D);
         }
         if (is_in) {
             inside++;
-            assert_float_equal(result.distance2, expected.distance2,
-                               DISTANCE_ERROR * (1.0 + expected.distance2));
-            assert_float_equal(result.log_det, expected.log_det,
+            assert_float_equal(result.log_density,
+                               -0.5 * (log(2.0 * DENSE_PI) + expected.log_det + expected.distance2),
+                               DISTANCE_ERROR * (1.0 + expected.distance2) +
+                                   LOG_ERROR * fabs(expected.log_det));
+            assert_float_equal(log(result.variance), expected.log_det,
                                LOG_ERROR * fabs(expected.log_det));
-            assert_int_equal(result.has_z + result.has_range_rate, 0);
         }
     }
     assert_in_range(inside, NUM_CASES / 2, NUM_CASES * 9 / 10);
@@ -121,13 +142,11 @@ static void the_distance_agrees_with_the_linearised_filter(void **state)
 static void the_gate_misses_one_true_bearing_in_a_thousand(void **state)
 {
     struct rho_kalman kalman = opened_filter(2, 2500.0f, 100.0f);
-    struct rho_gate gate;
     int outside = 0;
 
     (void)state;
     kalman.state[0] = -40000.0f; /* due west, where bearings wrap */
     kalman.state[1] = 0.0f;
-    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     for (int n = 0; n < 100000; ++n) {
         const double x = -40000.0 + 50.0 * normal();
         const double y = 50.0 * normal();
@@ -135,9 +154,9 @@ static void the_gate_misses_one_true_bearing_in_a_thousand(void **state)
         const struct rho_bearing bearing = {
             .bearing_rad = (float)remainder(atan2(y, x) + error, 2.0 * DENSE_PI),
             .sigma_rad = 0.002f};
-        struct rho_gate_result result;
+        struct result result;
 
-        outside += !is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result);
+        outside += !is_in_gate(&kalman, &bearing, 0.0f, 0.0f, &result);
     }
     print_message("outside the gate: %d of 100000\n", outside);
     assert_in_range(outside, 60, 140); /* 100 expected, standard deviation 10 */
@@ -147,34 +166,27 @@ static void the_gate_misses_one_true_bearing_in_a_thousand(void **state)
 static void the_gate_is_at_the_bearings_own_time(void **state)
 {
     struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f);
-    struct rho_gate gate;
-    struct rho_gate_result result;
+    struct result result;
     struct rho_bearing bearing = {.bearing_rad = 0.5f, .sigma_rad = 0.001f};
 
     (void)state;
     kalman.state[0] = 1000.0f;
     kalman.state[1] = 1000.0f;
     kalman.state[3] = 400.0f;
-    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 0);
+    assert_int_equal(is_in_gate(&kalman, &bearing, 0.0f, 0.0f, &result), 0);
     bearing.offset_us = 2076000; /* the target is at (1830, 1000) m then */
-    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 1);
-    assert_true(result.distance2 < 0.1f);
+    assert_int_equal(is_in_gate(&kalman, &bearing, 0.0f, 0.0f, &result), 1);
+    assert_true(result.log_density > -0.5 * log(2.0 * DENSE_PI * result.variance) - 0.05);
     bearing.offset_us = -2076000;
-    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 0);
+    assert_int_equal(is_in_gate(&kalman, &bearing, 0.0f, 0.0f, &result), 0);
 }
 
 static void assert_outside_gate(const struct rho_kalman *kalman, struct rho_bearing bearing,
                                 float x_m)
 {
-    struct rho_gate gate;
-    struct rho_gate_result result, guard;
+    struct result result;
 
-    memset(&guard, 0x5a, sizeof guard);
-    result = guard;
-    rho_gate_open(&gate, kalman, NOISE, NULL, 0);
-    assert_int_equal(is_in_gate(&gate, &bearing, x_m, 0.0f, &result), 0);
-    assert_memory_equal(&result, &guard, sizeof result);
+    assert_int_equal(is_in_gate(kalman, &bearing, x_m, 0.0f, &result), 0);
 }
 
 static void invalid_bearings_and_estimates_are_outside_the_gate(void **state)
@@ -182,12 +194,10 @@ static void invalid_bearings_and_estimates_are_outside_the_gate(void **state)
     const float bad[] = {NAN, INFINITY, -INFINITY, 1e30f};
     struct rho_bearing bearing = {.bearing_rad = 1.1f, .sigma_rad = 0.01f};
     struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f); /* the estimate is at (100, 200) m */
-    struct rho_gate gate;
-    struct rho_gate_result result;
+    struct result result;
 
     (void)state;
-    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-    assert_int_equal(is_in_gate(&gate, &bearing, 0.0f, 0.0f, &result), 1);
+    assert_int_equal(is_in_gate(&kalman, &bearing, 0.0f, 0.0f, &result), 1);
     kalman.state[1] = 0.4f;
     assert_outside_gate(&kalman, bearing, 100.5f); /* the target is at the sensor's place */
     kalman.state[1] = 200.0f;
@@ -259,8 +269,7 @@ static void slopes_agree_with_the_linearised_filter(void **state)
         const struct rho_kalman kalman = random_estimate_with_height(&scan);
         struct rho_bearing bearing = random_bearing_near(&kalman, place, n);
         struct dense at = dense_of(kalman.state, kalman.covariance);
-        struct rho_gate gate;
-        struct rho_gate_result result = {.has_z = 1}, plain = {.slope_nat = 1.0f};
+        struct result result, plain;
 
         dense_predict(&at, bearing.offset_us * 1e-6, 0.0);
         const double range = hypot(at.x[0] - place[0], at.x[1] - place[1]);
@@ -271,23 +280,21 @@ static void slopes_agree_with_the_linearised_filter(void **state)
             (float)fmin(1.3, atan2(at.x[2] - 150.0, range) + 2.5 * spread * normal());
         const struct expected expected = expected_gate(&kalman, &bearing, place);
         const struct expected_slope slope = expected_slope_gate(&kalman, &bearing, &scan);
-        rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-        const int is_in = rho_gate_test_bearing(&gate, &scan, &bearing, &result);
+        const int is_in = test_gate(&kalman, &scan, &bearing, &result);
         if (fabs(expected.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3 &&
             fabs(slope.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3) {
             assert_int_equal(is_in, expected.distance2 < (double)RHO_GATE_CHI2_1D &&
                                         slope.distance2 < (double)RHO_GATE_CHI2_1D);
         }
         bearing.sigma_elevation_rad = 0.0f;
-        const int is_in_without = rho_gate_test_bearing(&gate, &scan, &bearing, &plain);
+        const int is_in_without = test_gate(&kalman, &scan, &bearing, &plain);
         assert_true(is_in_without || !is_in);
         outside_by_slope += is_in_without && !is_in;
         if (is_in) {
             inside++;
-            assert_float_equal(result.slope_nat, slope.log_density,
+            assert_float_equal(result.log_density - plain.log_density, slope.log_density,
                                2e-3 * (1.0 + slope.distance2) + 1e-5 * fabs(slope.log_density));
-            assert_true(plain.slope_nat == 0.0f && plain.distance2 == result.distance2 &&
-                        plain.log_det == result.log_det);
+            assert_true(plain.variance == result.variance);
         }
     }
     assert_in_range(inside, NUM_CASES / 3, NUM_CASES * 9 / 10);
@@ -300,47 +307,49 @@ static void a_wrong_elevation_is_outside_the_gate(void **state)
     struct rho_kalman kalman = opened_filter(3, 100.0f, 1.0f);
     const struct rho_bearing_scan scan = {.z_m = 200.0f};
     struct rho_bearing bearing = {.sigma_rad = 0.001f, .sigma_elevation_rad = 0.001f};
-    struct rho_gate gate;
-    struct rho_gate_result result;
+    struct result result;
 
     (void)state;
     kalman.state[0] = 3000.0f;
     kalman.state[1] = 0.0f;
     kalman.state[2] = 4200.0f;
     bearing.elevation_rad = (float)atan2(4000.0, 3000.0);
-    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
+    assert_int_equal(test_gate(&kalman, &scan, &bearing, &result), 1);
     const double slope = 4.0 / 3.0, sigma = 0.001 * (1.0 + slope * slope);
     const double variance =
         pow(sigma, 2.0) * (1.0 + 100.0 / 9e6) + 100.0 * (1.0 + slope * slope) / 9e6;
-    assert_float_equal(result.slope_nat, -0.5 * log(2.0 * DENSE_PI * variance), 2e-3);
+    struct result plain;
+    const struct rho_bearing level = {.sigma_rad = 0.001f};
+    assert_int_equal(test_gate(&kalman, &scan, &level, &plain), 1);
+    assert_float_equal(result.log_density - plain.log_density,
+                       -0.5 * log(2.0 * DENSE_PI * variance), 2e-3);
     bearing.elevation_rad += 0.05f;
-    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 0);
+    assert_int_equal(test_gate(&kalman, &scan, &bearing, &result), 0);
     bearing.elevation_rad -= 0.1f;
-    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 0);
+    assert_int_equal(test_gate(&kalman, &scan, &bearing, &result), 0);
     bearing.sigma_elevation_rad = 0.0f;
-    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
-    assert_true(result.slope_nat == 0.0f);
+    assert_int_equal(test_gate(&kalman, &scan, &bearing, &result), 1);
+    assert_true(result.log_density == plain.log_density);
 }
 
 static void a_track_without_a_height_ignores_elevations(void **state)
 {
     const struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f);
     const struct rho_bearing_scan scan = {.z_m = 200.0f};
-    struct rho_gate gate;
 
     (void)state;
-    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     for (int n = 0; n < 100; ++n) {
-        struct rho_gate_result result = {.slope_nat = 1.0f};
-        const struct rho_bearing bearing = {.offset_us = n % 2 * 1000,
-                                            .bearing_rad = (float)atan2(200.0, 100.0),
-                                            .sigma_rad = 0.001f,
-                                            .elevation_rad = (float)uniform(-1.5, 1.5),
-                                            .sigma_elevation_rad = 0.001f};
+        struct result result, plain;
+        struct rho_bearing bearing = {.offset_us = n % 2 * 1000,
+                                      .bearing_rad = (float)atan2(200.0, 100.0),
+                                      .sigma_rad = 0.001f,
+                                      .elevation_rad = (float)uniform(-1.5, 1.5),
+                                      .sigma_elevation_rad = 0.001f};
 
-        assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
-        assert_true(result.slope_nat == 0.0f);
+        assert_int_equal(test_gate(&kalman, &scan, &bearing, &result), 1);
+        bearing.sigma_elevation_rad = 0.0f;
+        assert_int_equal(test_gate(&kalman, &scan, &bearing, &plain), 1);
+        assert_true(result.log_density == plain.log_density);
     }
 }
 
@@ -353,15 +362,12 @@ static void steep_elevations_are_not_tested(void **state)
                                   .sigma_rad = 0.001f,
                                   .elevation_rad = 1.45f,
                                   .sigma_elevation_rad = 0.001f};
-    struct rho_gate gate;
-    struct rho_gate_result result = {.slope_nat = 1.0f};
+    struct result result;
 
     (void)state;
-    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
-    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 1);
-    assert_true(result.slope_nat == 0.0f);
+    assert_int_equal(test_gate(&kalman, &scan, &bearing, &result), 1);
     bearing.elevation_rad = 1.39f;
-    assert_int_equal(rho_gate_test_bearing(&gate, &scan, &bearing, &result), 0);
+    assert_int_equal(test_gate(&kalman, &scan, &bearing, &result), 0);
 }
 
 /*
@@ -372,14 +378,12 @@ static void the_gate_misses_two_true_elevated_bearings_in_a_thousand(void **stat
 {
     struct rho_kalman kalman = opened_filter(3, 2500.0f, 100.0f);
     const struct rho_bearing_scan scan = {.z_m = 100.0f};
-    struct rho_gate gate;
     int outside = 0, outside_by_slope = 0;
 
     (void)state;
     kalman.state[0] = -20000.0f;
     kalman.state[1] = 0.0f;
     kalman.state[2] = 8000.0f;
-    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     for (int n = 0; n < 100000; ++n) {
         const double x = -20000.0 + 50.0 * normal(), y = 50.0 * normal();
         const double z = 8000.0 + 50.0 * normal();
@@ -388,12 +392,12 @@ static void the_gate_misses_two_true_elevated_bearings_in_a_thousand(void **stat
             .sigma_rad = 0.002f,
             .elevation_rad = (float)(atan2(z - 100.0, hypot(x, y)) + 0.002 * normal()),
             .sigma_elevation_rad = 0.002f};
-        struct rho_gate_result result;
-        const int is_in = rho_gate_test_bearing(&gate, &scan, &bearing, &result);
+        struct result result;
+        const int is_in = test_gate(&kalman, &scan, &bearing, &result);
 
         outside += !is_in;
         bearing.sigma_elevation_rad = 0.0f;
-        outside_by_slope += !is_in && rho_gate_test_bearing(&gate, &scan, &bearing, &result);
+        outside_by_slope += !is_in && test_gate(&kalman, &scan, &bearing, &result);
     }
     print_message("outside the gate: %d of 100000, by slope %d\n", outside, outside_by_slope);
     assert_in_range(outside, 140, 260); /* 200 expected, standard deviation 14 */
