@@ -182,7 +182,7 @@ def tracks_by_scan(truth, times_us, ids, place_m, more=None):
     time."""
     scan = truth.scan_of(times_us)
     by_scan_ids = [np.empty(0, dtype=np.int64)] * len(truth.times_us)
-    by_scan_place = [np.empty((0, 2))] * len(truth.times_us)
+    by_scan_place = [np.empty((0, place_m.shape[-1]))] * len(truth.times_us)
     by_scan_more = [np.empty((0, len(MORE)))] * len(truth.times_us)
     order = np.argsort(scan, kind="stable")
     bounds = np.searchsorted(scan[order], np.arange(len(truth.times_us) + 1))
@@ -197,13 +197,11 @@ def tracks_by_scan(truth, times_us, ids, place_m, more=None):
     return Tracks(by_scan_ids, by_scan_place, by_scan_more if more is not None else None)
 
 
-def read_tracks(path, truth):
-    table = columns(path, ("t_s", "track_id", "status", "x_m", "y_m"), MORE[:-1])
+def read_tracks(path, truth, axes=("x_m", "y_m")):
+    table = columns(path, ("t_s", "track_id", "status", *axes), MORE[:-1])
     counts = np.array([status in ("confirmed", "coasting") for status in table["status"]],
                       dtype=bool)
-    place = np.column_stack(
-        [np.array(table["x_m"], dtype=float),
-         np.array(table["y_m"], dtype=float)])
+    place = np.column_stack([np.array(table[axis], dtype=float) for axis in axes])
     ids = np.array(table["track_id"], dtype=np.int64)
     more = np.column_stack([
         np.full(len(ids), np.nan) if table[name] is
