@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 import os
+import pathlib
 import subprocess
 import unittest
 
@@ -50,6 +51,41 @@ class Skies(unittest.TestCase):
             self.assertAlmostEqual(off.std() / sigma_rad, 1, delta=4 / math.sqrt(2 * count))
             self.assertTrue((np.diff(sky.rows["t_s"]) >= 0).all())
 
+    def test_elevations_are_of_the_targets_heights_and_the_masts(self):
+        for name in ("2 cameras .2 deg", "4 cameras .3 deg 8 drones"):
+            sky = draw(name)
+            rows = sky.rows[sky.rows["target_id"] >= 0]
+            states = sky.paths[np.rint(rows["t_s"] * 10).astype(int), rows["target_id"]]
+            mast_m = np.array(sky.of.masts_m)[rows["sensor_id"] - 1]
+            np.testing.assert_array_equal(rows["sensor_z_m"], mast_m)
+            off = rows["elevation_rad"] - np.arctan2(states[:, 4] - mast_m, np.hypot(
+                states[:, 0] - rows["sensor_x_m"], states[:, 1] - rows["sensor_y_m"]))
+            sigma_rad, count = math.radians(sky.of.sigma_deg), len(rows)
+            self.assertAlmostEqual(off.std() / sigma_rad, 1, delta=4 / math.sqrt(2 * count))
+            self.assertAlmostEqual(off.mean() / sigma_rad, 0, delta=4 / math.sqrt(count))
+            height_m = sky.paths[..., 4]
+            self.assertTrue((0 <= height_m).all() and (height_m <= sky.of.height_m).all())
+            self.assertGreater(np.ptp(height_m), sky.of.height_m / 3)
+            np.testing.assert_allclose(np.diff(height_m, axis=0), 0.1 * sky.paths[1:, :, 5])
+            false = sky.rows["elevation_rad"][(sky.rows["target_id"] < 0)
+                                              & ~np.isnan(sky.rows["bearing_rad"])]
+            self.assertTrue(0 <= false.min() and 0.45 < false.max() <= 0.5)
+
+    def test_the_row_beside_has_the_same_bearings_and_no_elevations(self):
+        names = ("3 cameras 1 deg 6 targets", "3 cameras 1 deg 6 targets bearings")
+        cameras, bare = (draw(name) for name in names)
+        np.testing.assert_array_equal(cameras.rows["bearing_rad"], bare.rows["bearing_rad"])
+        with lab_test_setup.folder() as folder:
+            texts = []
+            for sky in (cameras, bare):
+                sky.write(pathlib.Path(folder) / "sky.csv")
+                texts.append((pathlib.Path(folder) / "sky.csv").read_text().splitlines())
+        more = ",sensor_z_m,elevation_rad,sigma_elevation_rad"
+        self.assertEqual(texts[0][0], texts[1][0] + more)
+        self.assertNotIn("elevation", texts[1][0])
+        self.assertEqual([line.split(",")[:6] for line in texts[0]],
+                         [line.split(",") for line in texts[1]])
+
     def test_looks_misses_and_false_bearings(self):
         sky = draw("turning .5 deg P_D .7", frames=600)
         looks = np.isnan(sky.rows["bearing_rad"]).sum()
@@ -61,7 +97,7 @@ class Skies(unittest.TestCase):
 
     def test_turns_and_phases(self):
         sky = draw("turning .1 deg")
-        velocity = sky.paths[..., 2:]
+        velocity = sky.paths[..., 2:4]
         self.assertAlmostEqual(np.ptp(np.hypot(velocity[..., 0], velocity[..., 1]), axis=0).max(),
                                0)
         accel_mps2 = np.linalg.norm(np.diff(velocity, axis=0), axis=-1) / 0.1
@@ -74,7 +110,8 @@ class Skies(unittest.TestCase):
     def test_a_seed_gives_the_same_targets_in_each_row(self):
         together, apart = draw("clean .1 deg"), draw(".5 s apart")
         np.testing.assert_array_equal(together.paths[0], apart.paths[0])
-        self.assertFalse((together.paths[0] == draw("clean .1 deg", 2).paths[0]).any())
+        other = draw("clean .1 deg", 2)
+        self.assertFalse((together.paths[0, :, :4] == other.paths[0, :, :4]).any())
 
 
 class Oracle(unittest.TestCase):
@@ -87,12 +124,28 @@ class Oracle(unittest.TestCase):
         state, covariance = bearings_runs.fit(own[own["frame"] <= 2], sky.times_s[2],
                                               sky.truth[2, 1], sky.of.settings)
         np.testing.assert_allclose(places_m[2, 1], state[:2])
+        state, covariance = state[:4], covariance[:4, :4]
         covariance, now_s = covariance + 10 * np.diag([0, 0, 1, 1]), sky.times_s[2]
         for row in own[own["frame"] > 2]:
             state, covariance = passive_scenes.predict(state, covariance, row["t_s"] - now_s, 2.0)
             state, covariance = passive_scenes.update(state, covariance, row)
             now_s = row["t_s"]
         np.testing.assert_allclose(places_m[-1, 1], state[:2], rtol=1e-6)
+
+    def test_derivatives_of_angles(self):
+        place_m, step_m = np.array([3e3, -4e3, 2e3]), 0.01 * np.eye(3)
+        _, by_place = bearings_runs.expected(place_m)
+        ahead, behind = (bearings_runs.expected(place_m + sign * step_m)[0] for sign in (1, -1))
+        np.testing.assert_allclose(by_place, (ahead - behind).T / 0.02, atol=1e-10)
+
+    def test_its_heights_err_as_its_covariances_say(self):
+        """Of straight targets, where no density is the right one."""
+        squares = []
+        for seed in range(10):
+            sky = draw("2 cameras .2 deg", seed, targets=20)
+            states, covariances = bearings_runs.filtered(sky, 1e-6)
+            squares.append((states - sky.truth)[-1, :, 4]**2 / covariances[-1, :, 4, 4])
+        self.assertAlmostEqual(np.mean(squares), 1, delta=4 * math.sqrt(2 / 200))
 
     def test_many_densities_are_each_alone_and_the_best_is_chosen(self):
         sky = draw("turning .5 deg")
@@ -122,6 +175,7 @@ class Score(unittest.TestCase):
 
     def test_the_truth_is_right(self):
         found = self.of(self.truth_m)
+        self.assertTrue(math.isnan(found.pop("height_m")))
         self.assertEqual(found, {"completeness": 1, "false": 0, "first": 0, "rms_m": 0, "wrong": 0,
                                  "starts": 4 / self.sky.of.hours})
 
@@ -149,6 +203,18 @@ class Score(unittest.TestCase):
         found = self.of(self.truth_m)
         self.assertAlmostEqual(found["rms_m"], 500)
         self.assertEqual(found["wrong"], 0)
+
+    def test_heights_count_with_elevations(self):
+        self.sky = draw("2 cameras .2 deg")
+        self.truth_m = self.sky.truth[..., [0, 1, 4]].copy()
+        self.truth_m[..., 2] += 400
+        found = self.of(self.truth_m)
+        self.assertEqual((found["completeness"], found["rms_m"]), (1, 0))
+        self.assertAlmostEqual(found["height_m"], 400)
+        self.truth_m[:, 1, 2] += self.sky.of.gate_m
+        found = self.of(self.truth_m)
+        self.assertAlmostEqual(found["completeness"], 0.75)
+        self.assertAlmostEqual(found["false"], 1)
 
     def test_wrong_at_the_end(self):
         targets = np.array([[0.0, 0.0]])
@@ -222,6 +288,21 @@ class EndToEnd(unittest.TestCase):
                 "completeness", "false tracks a scan", "frames before the first track",
                 "rms over the oracle's")), "no target 4 false: starts an hour"])
         self.assertEqual(files, ["figures.json", "index.html", "rows.svg"])
+
+    def test_cameras_beside_the_same_sky_without_elevations(self):
+        """Of ten runs completeness is .95 beside .89, height's rms 1.1 times the oracle's."""
+        done, _ = self.run_it("--rows", "2 cameras .2 deg")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        report = json.loads(done.stdout)
+        bare, cameras = (row["rhotrack"] for row in report["rows"])
+        self.assertIsNone(bare["height_m"])
+        self.assertLess(cameras["height_m"], 200)
+        self.assertGreater(cameras["completeness"], 0.9)
+        name = "2 cameras .2 deg"
+        self.assertEqual([bar["what"] for bar in report["bars"]], [
+            f"{name}: rms of height over the oracle's",
+            f"{name}: completeness less that of {name} bearings",
+            f"{name}: false tracks a scan less those of {name} bearings"])
 
     def test_rows_by_name_by_part_and_with_those_beside(self):
         self.assertEqual(bearings.chosen(["turning .5 deg"]), ["turning .5 deg"])

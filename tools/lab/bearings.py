@@ -5,8 +5,9 @@
 the papers' pipeline and Stone Soup, and the goals.
 
 Sensors 0 to 3 s apart, of .1 to 2 degrees, two to eight of them, some that move or share a mast; 2
-to 20 targets, straight and turning, P_D 1 to .7, and hours without a target. A row that the program
-refuses says so. Exit codes: 0, also where goals are missed; 1: the program failed; 2: bad usage.
+to 20 targets, straight and turning, P_D 1 to .7, and hours without a target; elevations, beside the
+same sky without them. A row that the program refuses says so. Exit codes: 0, also where goals are
+missed; 1: the program failed; 2: bad usage.
 """
 import dataclasses
 import math
@@ -34,21 +35,24 @@ SURE_PD = 0.99  # told for P_D 1
 @dataclasses.dataclass(frozen=True)
 class Goal:
     """None: no goal of it. first: frames before a target's first track; wrong: share of the runs
-    that are wrong at the end; rms: over the oracle's; below: completeness so much below that of the
-    row `beside` at most."""
+    that are wrong at the end; rms, height: over the oracle's; below, above: completeness so much
+    below, and false tracks above, those of the row `beside` at most."""
     completeness: float = None
     false: float = None
     first: float = None
     rms: float = None
     wrong: float = None
     starts: float = None  # an hour
+    height: float = None
     below: float = None
+    above: float = None
     beside: str = None
 
     def text(self):
         words = [f"{form}{getattr(self, name):g}" for name, form in (
             ("completeness", ""), ("false", "false "), ("first", "first "), ("rms", "rms "),
-            ("wrong", "wrong "), ("starts", "")) if getattr(self, name) is not None]
+            ("wrong", "wrong "), ("height", "height "), ("starts", ""))
+                 if getattr(self, name) is not None]
         return ", ".join(words + [f"as {self.beside}"] * (self.beside is not None))
 
 
@@ -58,18 +62,18 @@ def ahead(sigma_deg, targets=4, places_m=AHEAD_3, pd=1, **others):
                  settings={**STRAIGHT, "pd": min(pd, SURE_PD)}, **others)
 
 
-def around(sigma_deg, turn_mps2=20, places_m=AROUND_3, pd=0.9, **others):
+def around(sigma_deg, turn_mps2=20, places_m=AROUND_3, pd=0.9, settings=FINDERS, **others):
     """Five targets about direction finders that look each 2 s and give false bearings."""
     return Scene(places_m, **{"targets": 5, "frames": 150, "interval_s": 2, "false_mean": 0.3,
                               **others}, sigma_deg=sigma_deg, pd=pd, is_around=True,
-                 turn_mps2=turn_mps2, settings={**FINDERS, "pd": pd})
+                 turn_mps2=turn_mps2, settings={**settings, "pd": pd})
 
 
-def ring(count):
+def ring(count, scale=1):
     """Sensors about the centre of the targets."""
     angle = np.arange(count) * 2 * np.pi / count
-    return tuple(zip((10e3 + 11.5e3 * np.cos(angle)).tolist(),
-                     (6e3 + 11.5e3 * np.sin(angle)).tolist()))
+    return tuple(zip((scale * (10e3 + 11.5e3 * np.cos(angle))).tolist(),
+                     (scale * (6e3 + 11.5e3 * np.sin(angle))).tolist()))
 
 
 def apart(gap_s):
@@ -84,6 +88,16 @@ def nothing(false_mean):
                  settings={**STRAIGHT, "pd": 0.9})
 
 
+def cameras(name, scene):
+    """A row of cameras beside the same sky without elevations."""
+    bare = f"{name} bearings"
+    return {bare: (scene, Goal()), name: (dataclasses.replace(scene, has_elevations=True),
+                                          Goal(height=1.3, below=0, above=0, beside=bare))}
+
+
+DRONES = around(0.3, 3, ring(4, 0.11), targets=8, frames=240, interval_s=0.5, scale=0.11,
+                gate_m=300, height_m=800, masts_m=(5, 10, 15, 20),  # 11 to 24 m/s, within 2 km
+                settings={"v_max_mps": 40, "accel_max_mps2": 4, "range_max_m": 10e3})
 APART, CROWD = Goal(rms=1.3, below=0.01, beside="clean .1 deg"), {"pd": 0.9, "false_mean": 0.3}
 ROWS = {
     "clean .1 deg": (ahead(0.1), Goal(wrong=0.005)),
@@ -114,14 +128,20 @@ ROWS = {
     "12 targets .1 deg": (ahead(0.1, 12, **CROWD), Goal()),
     "16 targets .1 deg": (ahead(0.1, 16, **CROWD), Goal()),
     "20 targets .1 deg": (ahead(0.1, 20, **CROWD), Goal()),
+    **cameras("2 cameras .2 deg", ahead(0.2, places_m=AHEAD_3[:2], height_m=15e3, masts_m=(20, 60),
+                                        **CROWD)),
+    **cameras("3 cameras 1 deg 6 targets",
+              around(1, 0, targets=6, height_m=7e3, settings=STRAIGHT)),
+    **cameras("4 cameras .3 deg 8 drones", DRONES),
     "no target 1 false": (nothing(1), Goal(starts=1)),
     "no target 2 false": (nothing(2), Goal(starts=1)),
     "no target 4 false": (nothing(4), Goal(starts=1)),
 }
 WITH_STONE_SOUP = ("clean .1 deg", "clean .5 deg", "straight 2 deg", "turning .5 deg")
 COLUMNS = {"completeness": "{:.3f}", "false": "{:.3f}", "first": "{:.1f}", "rms_m": "{:.0f}",
-           "wrong": "{:.3f}"}
-HEADINGS = ("row", "by", "completeness", "false/scan", "first", "rms m", "wrong", "goal")
+           "height_m": "{:.0f}", "wrong": "{:.3f}"}
+HEADINGS = ("row", "by", "completeness", "false/scan", "first", "rms m", "height m", "wrong",
+            "goal")
 
 
 def run_all(report, names, options):
@@ -188,14 +208,22 @@ def judge(report, name, figures, runs):
             report.at_most(f"{name}: {what}", value, getattr(goal, key), error)
     if goal.wrong is not None:
         report.at_most(f"{name}: wrong at the end", own["wrong"][0], goal.wrong, trials=runs)
-    if goal.rms is not None and not math.isnan(own["rms_m"][0]):
-        ratio, error = experiment.quotient_of(own["rms_m"], found[ORACLE]["rms_m"])
-        report.at_most(f"{name}: rms over the oracle's", ratio, goal.rms, error)
+    for key, figure, what in (("rms", "rms_m", "rms"), ("height", "height_m", "rms of height")):
+        if getattr(goal, key) is not None and not math.isnan(own[figure][0]):
+            ratio, error = experiment.quotient_of(own[figure], found[ORACLE][figure])
+            report.at_most(f"{name}: {what} over the oracle's", ratio, getattr(goal, key), error)
     beside = figures.get(goal.beside, {}).get(RHOTRACK)
-    if isinstance(beside, dict):
-        (value, error), (other, other_error) = own["completeness"], beside["completeness"]
-        report.at_least(f"{name}: completeness less that of {goal.beside}", value - other,
-                        -goal.below, math.hypot(error, other_error))
+    def less(figure):
+        (value, error), (other, other_error) = own[figure], beside[figure]
+        return value - other, math.hypot(error, other_error)
+    if isinstance(beside, dict) and goal.below is not None:
+        value, error = less("completeness")
+        report.at_least(f"{name}: completeness less that of {goal.beside}", value, -goal.below,
+                        error)
+    if isinstance(beside, dict) and goal.above is not None:
+        value, error = less("false")
+        report.at_most(f"{name}: false tracks a scan less those of {goal.beside}", value,
+                       goal.above, error)
 
 
 def draw(report, figures):
