@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "passive_search.h"
-#include "policy.h"
 
 /*
  * The highest total of a set of tracks without the target of candidate `which`: of the rest, and

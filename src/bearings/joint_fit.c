@@ -3,7 +3,6 @@
  * joint_fit: fits several tracks together. The bearings of each look are assigned to the tracks one
  * to one, for a high total score; each track is fitted to its own; both steps are repeated.
  */
-#include <string.h>
 
 #include "passive_search.h"
 #include "policy.h"

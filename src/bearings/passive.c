@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "passive_search.h"
-#include "policy.h"
 
 enum { PASSIVE_MAGIC = 0x50415353 }; /* "PASS" in ASCII */
 

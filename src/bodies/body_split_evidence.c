@@ -13,7 +13,6 @@
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/body_extent_filter.h"
 
 static float heading_tolerance_rad(const struct rho_body_filter *body)
 {

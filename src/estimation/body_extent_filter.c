@@ -2,7 +2,6 @@
 #include "rhotrack/detail/body_extent_filter.h"
 
 #include "policy.h"
-#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
 /* Memory of a body's variances, as a weight. */

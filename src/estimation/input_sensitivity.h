@@ -7,7 +7,6 @@
 #define RHOTRACK_INPUT_SENSITIVITY_H
 
 #include <stdint.h>
-#include <string.h>
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/input_estimation.h"

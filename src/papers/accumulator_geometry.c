@@ -4,7 +4,6 @@
  * cell of each point in a row of theta, whose loops over points are hot.
  */
 #include "accumulator_search.h"
-#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
 enum rho_status rho_accumulator_count_cells(const struct rho_accumulator_config *config,

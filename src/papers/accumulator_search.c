@@ -2,8 +2,6 @@
 /* accumulator_search: public calls of the accumulator: set-up, checks of the points, searches. */
 #include "rhotrack/detail/accumulator.h"
 
-#include <string.h>
-
 #include "accumulator_search.h"
 #include "policy.h"
 

@@ -3,7 +3,6 @@
  * passive_paper_lines: chooses lines from the cells with the most votes, and fits a
  * position and velocity through the crossings that voted for each line.
  */
-#include <string.h>
 
 #include "passive_paper_search.h"
 #include "policy.h"

@@ -2,7 +2,6 @@
 /* update: updates sensor health and learned noise by the assigned plots, and then the tracks. */
 #include "phases.h"
 #include "policy.h"
-#include "rhotrack/detail/approx.h"
 
 /*
  * Where targets may stand, one that is missed or manoeuvres may have braked harder than accel_max:

@@ -7,7 +7,6 @@
  */
 #include "clutter.h"
 #include "policy.h"
-#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "sight.h"
 

@@ -4,7 +4,6 @@
  * Tracks are moved back to the scan's time without process noise, claim its plots, and return to
  * the newest time at the end of the step.
  */
-#include "sight.h"
 #include "step.h"
 
 int rho_retrodiction_accepts(const struct rho_look *look)

@@ -11,7 +11,6 @@
 #include "plots.h"
 #include "policy.h"
 #include "sensors.h"
-#include "step.h"
 
 static void add_to_running_mean(float *mean, float value, uint16_t *count)
 {

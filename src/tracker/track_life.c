@@ -32,7 +32,6 @@
 #include "plots.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/doppler_notch.h"
 #include "sight.h"
 #include "step.h"
 

@@ -5,7 +5,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "clutter.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/recurring_clutter_map.h"
 #include "step.h"

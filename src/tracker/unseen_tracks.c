@@ -15,7 +15,6 @@
  * track is hit less often, the time between its hits counts instead: a sensor that steers its beam
  * freely looks in some directions more often than in others.
  */
-#include "clutter.h"
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
