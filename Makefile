@@ -133,8 +133,7 @@ codegen:
 
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)
-vote_objects := $(foreach part,accumulator_geometry accumulator_rows \
-                               accumulator_pruning,%/src/papers/$(part).o)
+vote_objects := %/src/papers/accumulator.o
 $(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): override OPT := -O3
 endif
 

@@ -464,7 +464,7 @@ RHO_CONFIG_RANGE(RHO_MAX_PARTS, 1, 32767);
 
 /*
  * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts
- * (accumulator_search.c, hough.c, initiator.c, tracker_setup.c). Embedded: initiator 66 KiB at
+ * (accumulator.c, hough.c, initiator.c, tracker_setup.c). Embedded: initiator 66 KiB at
  * most. A node also holds the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \

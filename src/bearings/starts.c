@@ -117,43 +117,26 @@ static int is_found(const struct rho_passive *passive, const struct rho_passive_
     return 0;
 }
 
-/* The height that the slopes of a crossing's bearings tell there. Returns 0 where none has one. */
-static int find_height(const struct rho_passive_search *search,
-                       const struct rho_passive_point *point, float *z_m)
+static void claim_crossing(struct rho_passive_candidate *candidate,
+                           const struct rho_passive_point *point)
 {
-    float sum = 0.0f, sum_m = 0.0f;
-    for (unsigned i = 0; i < 2; i++) {
-        const unsigned s = i == 0 ? point->sensors / 8u : point->sensors % 8u;
-        const struct rho_passive_look *at = &search->at[point->scan][s];
-        const struct rho_batch_bearing *seen =
-            &search->passive->batch.bearings[point->scan][s][point->bearing[i]];
-        const float dx_m = point->x_m - at->x_m, dy_m = point->y_m - at->y_m;
-        const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m) + 1.0f;
-        const float weight =
-            seen->sigma_slope > 0.0f ? 1.0f / rho_square(seen->sigma_slope * range_m) : 0.0f;
-        sum += weight;
-        sum_m += weight * (at->z_m + seen->slope * range_m);
-    }
-    *z_m = sum > 0.0f ? sum_m / sum : 0.0f;
-    return sum > 0.0f;
+    candidate->claim[point->scan][point->sensors / 8u] = (uint8_t)(point->bearing[0] + 1u);
+    candidate->claim[point->scan][point->sensors % 8u] = (uint8_t)(point->bearing[1] + 1u);
 }
 
-/* Gives a state through two crossings their heights, as far as they have one. */
-static int connect_heights(const struct rho_passive_search *search,
-                           const struct rho_passive_point *a, const struct rho_passive_point *b,
-                           float state_m[RHO_PASSIVE_STATES])
+/* Gives a state the height that the slopes of its crossings tell. Returns 0 where none has one. */
+static int find_height(const struct rho_passive_search *search, const struct rho_passive_point *a,
+                       const struct rho_passive_point *b, float state_m[RHO_PASSIVE_STATES])
 {
-    float from_m = 0.0f, to_m = 0.0f;
-    const int has_a = search->has_slopes && find_height(search, a, &from_m);
-    const int has_b = search->has_slopes && find_height(search, b, &to_m);
-    if (has_a && has_b) {
-        const float from = rho_passive_crossing_step(search, a);
-        state_m[RHO_PASSIVE_DZ] = (to_m - from_m) / (rho_passive_crossing_step(search, b) - from);
-        state_m[RHO_PASSIVE_Z] = from_m - from * state_m[RHO_PASSIVE_DZ];
-    } else {
-        state_m[RHO_PASSIVE_Z] = from_m + to_m;
-    }
-    return has_a || has_b;
+    struct rho_passive_candidate of = {.known = 0};
+    memcpy(of.state_m, state_m, sizeof of.state_m);
+    claim_crossing(&of, a);
+    claim_crossing(&of, b);
+    const int has_height = search->has_slopes &&
+                           rho_passive_equate_claims(search, &of).num_slopes > 0 &&
+                           rho_passive_step_to_claims(search, &of);
+    memcpy(state_m, of.state_m, sizeof of.state_m);
+    return has_height;
 }
 
 void rho_passive_fit_pairs(struct rho_passive_search *search)
@@ -180,7 +163,7 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
         float state_m[RHO_PASSIVE_STATES];
         best->agreement = 0.0f;
         if (!is_found(passive, a, b) && rho_passive_connect_crossings(search, a, b, state_m)) {
-            rho_passive_fit_nearest(search, connect_heights(search, a, b, state_m), state_m);
+            rho_passive_fit_nearest(search, find_height(search, a, b, state_m), state_m);
             rho_passive_offer_if_track(search, state_m);
             fits++;
         }

@@ -267,15 +267,28 @@ static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm
     return status;
 }
 
-static void open_manoeuvring_height(struct rho_imm *imm, const struct rho_imm_model *model,
-                                    float z_m, float variance_m2)
+/* Gives both models a height, as rho_kalman_open_height; steady, manoeuvre: as they see it. */
+static enum rho_status open_height(struct rho_imm *imm, const struct rho_imm_model *model,
+                                   const struct rho_kalman_bearing *steady,
+                                   const struct rho_kalman_bearing *manoeuvre)
 {
-    imm->state[RHO_Z] = z_m;
-    imm->covariance[COVARIANCE_AT(RHO_Z, 0, RHO_Z, 0)] = variance_m2;
-    imm->covariance[COVARIANCE_AT(RHO_Z, 1, RHO_Z, 1)] =
-        model->speed_sigma_mps * model->speed_sigma_mps;
-    imm->covariance[COVARIANCE_AT(RHO_Z, 2, RHO_Z, 2)] =
+    const float speed_variance = model->speed_sigma_mps * model->speed_sigma_mps;
+    const float x = -manoeuvre->row[RHO_X], y = -manoeuvre->row[RHO_Y];
+    float *p = imm->covariance, with_z[RHO_IMM_STATES];
+    for (int i = 0; i < RHO_IMM_STATES; i++) {
+        with_z[i] = x * p[RHO_AT(RHO_X, i)] + y * p[RHO_AT(RHO_Y, i)];
+    }
+    with_z[RHO_Z] = rho_kalman_floored(
+        (x * with_z[RHO_X] + y * with_z[RHO_Y]) * RHO_ROUNDING_ALLOWANCE + manoeuvre->variance_m2);
+    with_z[RHO_AXES + RHO_Z] = with_z[2 * RHO_AXES + RHO_Z] = 0.0f;
+    imm->state[RHO_Z] += manoeuvre->off_m;
+    for (int i = 0; i < RHO_IMM_STATES; i++) {
+        p[RHO_AT(RHO_Z, i)] = with_z[i];
+    }
+    p[COVARIANCE_AT(RHO_Z, 1, RHO_Z, 1)] = speed_variance;
+    p[COVARIANCE_AT(RHO_Z, 2, RHO_Z, 2)] =
         rho_kalman_floored(model->accel_sigma_mps2 * model->accel_sigma_mps2);
+    return rho_kalman_open_height(&imm->steady, steady, speed_variance);
 }
 
 enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *model,
@@ -292,13 +305,11 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
                              : is_in_plane ? update_in_plane(imm, model, seen)
                                            : update_coupled_axes(imm, model, num_axes, seen);
     if (status == RHO_OK && opens) {
-        const float noise = rho_kalman_floored(seen->covariance[RHO_ZZ]);
-        const float speed_variance = model->speed_sigma_mps * model->speed_sigma_mps;
-        status = rho_kalman_open_axis(&imm->steady, RHO_Z, seen->position.place_m[2], noise,
-                                      speed_variance);
-        if (status == RHO_OK) {
-            open_manoeuvring_height(imm, model, seen->position.place_m[2], noise);
-        }
+        const struct rho_kalman_bearing height = {.row = {[RHO_Z] = 1.0f},
+                                                  .off_m = seen->position.place_m[2],
+                                                  .variance_m2 =
+                                                      rho_kalman_floored(seen->covariance[RHO_ZZ])};
+        status = open_height(imm, model, &height, &height);
     }
     imm->probability = match->probability;
     imm->unseen_ms = 0;
@@ -386,26 +397,6 @@ enum rho_status rho_imm_update_bearings(struct rho_imm *imm,
     return status;
 }
 
-/* As rho_kalman_open_height, of the manoeuvring model. */
-static void open_height(struct rho_imm *imm, const struct rho_imm_model *model,
-                        const struct rho_kalman_bearing *seen)
-{
-    float with_z[RHO_IMM_STATES];
-    for (int i = 0; i < RHO_IMM_STATES; i++) {
-        with_z[i] = -seen->row[RHO_X] * imm->covariance[RHO_AT(RHO_X, i)] -
-                    seen->row[RHO_Y] * imm->covariance[RHO_AT(RHO_Y, i)];
-    }
-    const float projected_m2 = -seen->row[RHO_X] * with_z[RHO_X] - seen->row[RHO_Y] * with_z[RHO_Y];
-    open_manoeuvring_height(
-        imm, model, imm->state[RHO_Z] + seen->off_m,
-        rho_kalman_floored(projected_m2 * RHO_ROUNDING_ALLOWANCE + seen->variance_m2));
-    for (int i = 0; i < RHO_IMM_STATES; i++) {
-        if (i % RHO_AXES != RHO_Z) {
-            imm->covariance[RHO_AT(RHO_Z, i)] = with_z[i];
-        }
-    }
-}
-
 enum rho_status rho_imm_update_slope(struct rho_imm *imm, const struct rho_imm_model *model,
                                      const struct rho_slope *slope)
 {
@@ -416,13 +407,13 @@ enum rho_status rho_imm_update_slope(struct rho_imm *imm, const struct rho_imm_m
         !rho_kalman_linearise_slope(&at, slope, &seen)) {
         return RHO_OK;
     }
-    const int opens = !has_estimate_on_axis(imm, RHO_Z);
     imm->is_coupled = 1;
+    if (!has_estimate_on_axis(imm, RHO_Z)) {
+        return open_height(imm, model, &steady, &seen);
+    }
     enum rho_status status =
-        rho_kalman_update_slope(&imm->steady, slope, rho_square(model->speed_sigma_mps));
-    if (status == RHO_OK && opens) {
-        open_height(imm, model, &seen);
-    } else if (status == RHO_OK) {
+        rho_kalman_update_row(&imm->steady, steady.row, steady.off_m, steady.variance_m2);
+    if (status == RHO_OK) {
         status = rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 3, seen.row,
                                        seen.off_m, seen.variance_m2);
     }

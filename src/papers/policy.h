@@ -3,7 +3,7 @@
 #ifndef RHOTRACK_PAPERS_POLICY_H
 #define RHOTRACK_PAPERS_POLICY_H
 
-/* accumulator_search.c */
+/* accumulator.c */
 
 /*
  * Rows with at most this many points (rho cells / SPARSE_CELLS + SPARSE_POINTS) are cleared cell by
@@ -18,7 +18,7 @@
  */
 #define PRUNED_VOTES 3u
 
-/* accumulator_pruning.c; all change the time of a search, none its peaks */
+/* Pruning; all change the time of a search, none its peaks */
 
 /*
  * Parts of an interval of rows of theta that keeps points; the longest interval has PARTS^5 rows.

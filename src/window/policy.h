@@ -25,7 +25,7 @@
  */
 #define SECTOR_GAP_RAD (RHO_TWO_PI / 8.0f)
 
-/* window_extent.c */
+/* window.c, the extent */
 
 /*
  * Square of the standard deviations from the mean beyond which a plot is an outlier: 3 sigma;

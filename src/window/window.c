@@ -10,6 +10,94 @@
 #include "rhotrack/detail/measurement.h"
 #include "sigma_code.h"
 
+float rho_extent_width_m(const struct rho_extent *extent, float side_min_m)
+{
+    return rho_larger(extent->x_max_m - extent->x_min_m, side_min_m);
+}
+
+float rho_extent_height_m(const struct rho_extent *extent, float side_min_m)
+{
+    return rho_larger(extent->y_max_m - extent->y_min_m, side_min_m);
+}
+
+float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m)
+{
+    return rho_extent_width_m(extent, side_min_m) * rho_extent_height_m(extent, side_min_m);
+}
+
+void rho_extent_add(struct rho_extent *extent, float x_m, float y_m)
+{
+    if (!(extent->x_min_m <= extent->x_max_m)) {
+        extent->x_min_m = extent->x_max_m = x_m;
+        extent->y_min_m = extent->y_max_m = y_m;
+        return;
+    }
+    extent->x_min_m = rho_smaller(x_m, extent->x_min_m);
+    extent->x_max_m = rho_larger(x_m, extent->x_max_m);
+    extent->y_min_m = rho_smaller(y_m, extent->y_min_m);
+    extent->y_max_m = rho_larger(y_m, extent->y_max_m);
+}
+
+/* Mean, spread and extent of the held plots without outliers. */
+struct plot_spread {
+    /* number of plots; mean of x and y; sum of squares about the mean of x and y */
+    float plots, mean_m[2], sum2_m2[2];
+    struct rho_extent extent;
+};
+
+/* Adds a plot to mean and sum of squares (Welford), unless `before` makes it an outlier. */
+static void add_plot(struct plot_spread *spread, const struct plot_spread *before, float x_m,
+                     float y_m)
+{
+    const float place_m[2] = {x_m, y_m};
+    const float dx_m = x_m - before->mean_m[0], dy_m = y_m - before->mean_m[1];
+    if (before->plots >= OUTLIER_PLOTS &&
+        (dx_m * dx_m * before->plots > OUTLIER_SIGMAS2 * before->sum2_m2[0] ||
+         dy_m * dy_m * before->plots > OUTLIER_SIGMAS2 * before->sum2_m2[1])) {
+        return;
+    }
+    spread->plots += 1.0f;
+    for (int axis = 0; axis < 2; axis++) {
+        float off_m = place_m[axis] - spread->mean_m[axis];
+        spread->mean_m[axis] += off_m / spread->plots;
+        spread->sum2_m2[axis] += off_m * (place_m[axis] - spread->mean_m[axis]);
+    }
+    rho_extent_add(&spread->extent, x_m, y_m);
+}
+
+/* A side moves outwards at once, and inwards slowly. */
+static float moved_side_m(float was, float is, int is_wider)
+{
+    return is_wider ? is : was + EXTENT_DECAY * (is - was);
+}
+
+/* Outliers are left out: they would make clutter look thin. */
+void rho_window_update_extent(struct rho_window *window)
+{
+    struct plot_spread spread = {0}, before;
+    for (int round = 0; round < OUTLIER_ROUNDS; round++) {
+        before = spread;
+        spread = (struct plot_spread){.extent = {1.0f, 0.0f, 1.0f, 0.0f}};
+        for (unsigned m = 0; m < window->num_scans; m++) {
+            const struct rho_window_scan *held = rho_window_scan_at(window, m);
+            for (unsigned i = 0; i < held->num_plots; i++) {
+                add_plot(&spread, &before, held->plots[i].x_m, held->plots[i].y_m);
+            }
+        }
+    }
+    struct rho_extent *was = &window->extent, is = spread.extent;
+    if (spread.plots < 1.0f) {
+        return;
+    }
+    if (window->num_scans == 1) {
+        *was = is;
+    }
+    was->x_min_m = moved_side_m(was->x_min_m, is.x_min_m, is.x_min_m < was->x_min_m);
+    was->x_max_m = moved_side_m(was->x_max_m, is.x_max_m, is.x_max_m > was->x_max_m);
+    was->y_min_m = moved_side_m(was->y_min_m, is.y_min_m, is.y_min_m < was->y_min_m);
+    was->y_max_m = moved_side_m(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
+}
+
 #define WINDOW_MAGIC 0x57494e44u /* "WIND" */
 
 /* Lays out nearly square bins over the area, at most BINS_PER_PLOT for each plot expected. */
@@ -303,4 +391,82 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
         rho_window_update_extent(window);
     }
     return RHO_OK;
+}
+
+/* True where the bins' starts ascend and plots lie in their bins, as pushes move plots by bins. */
+static int has_sound_bins(const struct rho_window_scan *scan)
+{
+    const unsigned num_bins = (unsigned)scan->bins_x * scan->bins_y;
+    if (num_bins < 1 || num_bins > RHO_MAX_BINS || scan->bin_start[0] != 0 ||
+        scan->bin_start[num_bins] != scan->num_plots) {
+        return 0;
+    }
+    for (unsigned bin = 0; bin < num_bins; bin++) {
+        if (scan->bin_start[bin] > scan->bin_start[bin + 1] ||
+            scan->bin_start[bin + 1] > scan->num_plots) {
+            return 0;
+        }
+        for (unsigned i = scan->bin_start[bin]; i < scan->bin_start[bin + 1]; i++) {
+            const struct rho_window_plot *plot = &scan->plots[i];
+            if (rho_window_bin_at(scan, plot->x_m, plot->y_m) != bin) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static int is_sound_scan(const struct rho_window_scan *scan)
+{
+    if (!rho_is_stored_time(scan->time_us) ||
+        !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+        !rho_measurement_is_valid_site(&scan->sensor) ||
+        !rho_is_within(scan->sensor.pd, 0.0f, 1.0f) || scan->num_plots > RHO_MAX_PLOTS ||
+        scan->num_unused > scan->num_plots || !rho_are_finite(&scan->bin_x0_m, 1) ||
+        !rho_are_finite(&scan->bin_y0_m, 1) || !rho_is_within(scan->bins_per_m_x, 0.0f, 1e6f) ||
+        !rho_is_within(scan->bins_per_m_y, 0.0f, 1e6f) ||
+        !rho_is_within(scan->sigma_max_m, 0.0f, 1e7f) || !rho_are_finite(&scan->offset_min_s, 1) ||
+        !rho_are_finite(&scan->offset_max_s, 1)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const struct rho_window_plot *plot = &scan->plots[i];
+        if (!rho_is_coordinate(plot->x_m) || !rho_is_coordinate(plot->y_m) ||
+            !rho_is_coordinate(plot->z_m) ||
+            !rho_is_within(plot->offset_s, -2e-6f * RHO_LIMIT_OFFSET_US,
+                           2e-6f * RHO_LIMIT_OFFSET_US) ||
+            !rho_are_finite(&plot->range_rate_mps, 1)) {
+            return 0;
+        }
+    }
+    return has_sound_bins(scan);
+}
+
+int rho_window_is_sound(const struct rho_window *window)
+{
+    int64_t before_us = INT64_MIN;
+    if (window->scans_max < 1 || window->scans_max > RHO_MAX_SCANS ||
+        window->num_scans > window->scans_max || window->first >= window->scans_max ||
+        !rho_is_within(window->side_min_m, 0.0f, 1e30f) ||
+        !rho_is_coordinate(window->extent.x_min_m) || !rho_is_coordinate(window->extent.x_max_m) ||
+        !rho_is_coordinate(window->extent.y_min_m) || !rho_is_coordinate(window->extent.y_max_m)) {
+        return 0;
+    }
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = &window->ring[(window->first + m) % window->scans_max];
+        if (scan->time_us < before_us || !is_sound_scan(scan)) {
+            return 0;
+        }
+        before_us = scan->time_us;
+    }
+    if (window->num_scans > 0) {
+        /* the record of the newest sector, or whole scan, must fit to the newest held scan */
+        const struct rho_window_sector *newest = &window->newest;
+        if (!rho_is_stored_time(newest->time_us) || newest->time_us < before_us ||
+            newest->time_us - before_us > RHO_LIMIT_OFFSET_US ||
+            !rho_are_finite(&newest->offset_min_s, 1)) {
+            return 0;
+        }
+    }
+    return rho_window_accepts(window, INT64_MAX);
 }

@@ -229,7 +229,7 @@ class Passive:
         whole = np.empty((len(found), 4, 4))
         row, column = np.tril_indices(4)
         for one, covariance in zip(found, whole):
-            covariance[row, column] = covariance[column, row] = list(one.covariance)
+            covariance[row, column] = covariance[column, row] = list(one.covariance)[:len(row)]
         return whole
 
     @property
