@@ -68,6 +68,43 @@ static void one_bearing_leaves_the_moments_of_the_mixture(void **state)
     assert_true(fabs(after / (square / sum - mean * mean) - 1.0) < 1e-3);
 }
 
+/* An estimate north of a sensor: its sigma of 30 m across is 3 mrad at 10 km, beside 4 of noise. */
+static void a_bearing_is_expected_with_the_variance_of_both(void **state)
+{
+    const double pi = 3.14159265358979;
+    struct rho_kalman at = {.state = {500.0f, 9000.0f, 2000.0f}};
+    struct rho_bearing bearing = {.bearing_rad = (float)(0.5 * pi + 0.002),
+                                  .sigma_rad = 0.0024f,
+                                  .elevation_rad = (float)atan(0.2),
+                                  .sigma_elevation_rad = 0.01f};
+    const struct rho_bearing_scan scan = {
+        .x_m = 500.0f, .y_m = -1000.0f, .num_bearings = 1, .bearings = &bearing};
+    const struct rho_weighed_bearings look = {.scan = &scan, .lasting_rad2 = 0.0032f * 0.0032f};
+    struct rho_expected_bearing level, expected;
+    (void)state;
+    at.covariance[RHO_AT(0, 0)] = at.covariance[RHO_AT(1, 1)] = 900.0f;
+    at.covariance[RHO_AT(3, 3)] = at.covariance[RHO_AT(4, 4)] = 1.0f;
+    assert_int_equal(rho_bearing_expect(&at, &look, 0, &level), 1);
+    assert_float_equal(level.off_rad, 0.002, 1e-6);
+    assert_float_equal(level.variance_rad2, 25e-6, 1e-8);
+    assert_float_equal(level.nis, 4.0 / 25.0, 1e-3);
+    assert_float_equal(level.density, exp(-0.08) / (0.005 * sqrt(2.0 * pi)), 0.05);
+    at.covariance[RHO_AT(2, 2)] = 900.0f;
+    at.covariance[RHO_AT(5, 5)] = 1.0f;
+    at.state[2] = 2300.0f; /* 300 m above the slope, whose sigma is 108 m */
+    const double variance = 900.0 * 1.04 + pow(0.01 * 1.04, 2.0) * (1e8 + 900.0);
+    assert_int_equal(rho_bearing_expect(&at, &look, 0, &expected), 1);
+    assert_float_equal(expected.nis, 9e4 / variance, 0.02);
+    assert_float_equal(expected.density / level.density,
+                       1e4 * exp(-4.5e4 / variance) / sqrt(2.0 * pi * variance), 0.01);
+    assert_float_equal(expected.variance_rad2, level.variance_rad2, 1e-12);
+    at.state[1] = -1000.5f;
+    assert_int_equal(rho_bearing_expect(&at, &look, 0, &expected), 0);
+    at.state[1] = 9000.0f;
+    bearing.sigma_rad = INFINITY;
+    assert_int_equal(rho_bearing_expect(&at, &look, 0, &expected), 0);
+}
+
 static void a_sure_bearing_is_itself(void **state)
 {
     struct rho_bearing_mix mix = {.hit = 0.0f};
@@ -137,6 +174,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_bearing_leaves_the_moments_of_the_mixture),
+        cmocka_unit_test(a_bearing_is_expected_with_the_variance_of_both),
         cmocka_unit_test(a_sure_bearing_is_itself),
         cmocka_unit_test(looks_that_tell_next_to_nothing_are_left_out),
         cmocka_unit_test(a_bearing_off_a_straight_flight_is_the_manoeuvring_models),

@@ -156,6 +156,61 @@ static void updates_agree_with_the_joseph_form(void **state)
     }
 }
 
+/* Without a height, or a slope, nothing is told against a bearing. */
+static void the_density_of_a_slope_agrees_with_the_linearised_filter(void **state)
+{
+    const struct rho_slope none = {.sigma = 0.0f};
+
+    (void)state;
+    for (int n = 0; n < NUM_CASES; ++n) {
+        const struct rho_slope slope = random_slope();
+        struct rho_kalman kalman = random_estimate(&slope);
+        const struct dense at = dense_of(kalman.state, kalman.covariance);
+        const struct dense_measurement m = dense_slope(&at, &slope);
+        const double range = hypot(at.x[0] - (double)slope.x_m, at.x[1] - (double)slope.y_m);
+        const double variance = dense_innovation_variance(&at, &m);
+        const double expected = m.y[0] * m.y[0] / variance;
+        float nis = -1.0f;
+        const double density = (double)rho_kalman_slope_density(&kalman, &slope, &nis);
+
+        assert_float_equal(nis, expected, 1e-2 * (1.0 + expected));
+        if (expected < 20.0) {
+            assert_float_equal(
+                density, range / sqrt(2.0 * 3.14159265358979 * variance) * exp(-0.5 * (double)nis),
+                1e-3 * density);
+        }
+        assert_true(rho_kalman_slope_density(&kalman, &none, &nis) == 1.0f && nis == 0.0f);
+        close_axis(&kalman, 2);
+        nis = 1.0f;
+        assert_true(rho_kalman_slope_density(&kalman, &slope, &nis) == 1.0f && nis == 0.0f);
+    }
+}
+
+/* A height that another estimate saw is that of this one, too, with the covariances of its own. */
+static void a_height_of_another_estimate_is_taken(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 100; ++n) {
+        const struct rho_slope slope = random_slope();
+        struct rho_kalman kalman = random_estimate(&slope);
+        struct rho_kalman_bearing seen;
+
+        close_axis(&kalman, 2);
+        assert_int_equal(rho_kalman_linearise_slope(&kalman, &slope, &seen), 1);
+        seen.off_m = 1234.0f;
+        assert_int_equal(rho_kalman_open_height(&kalman, &seen, 81.0f), RHO_OK);
+        assert_true(kalman.state[2] == 1234.0f && kalman.covariance[RHO_AT(5, 5)] == 81.0f);
+        const double with_x = -(double)seen.row[0] * (double)kalman.covariance[0] -
+                              (double)seen.row[1] * (double)kalman.covariance[RHO_AT(1, 0)];
+        assert_float_equal(
+            kalman.covariance[RHO_AT(2, 0)], with_x,
+            1e-5 * sqrt((double)kalman.covariance[0] * (double)kalman.covariance[RHO_AT(2, 2)]));
+        seen.variance_m2 = NAN;
+        close_axis(&kalman, 2);
+        assert_int_equal(rho_kalman_open_height(&kalman, &seen, 81.0f), RHO_ERROR_VALUE);
+    }
+}
+
 /* The first height is that of the line of sight; its variance has the range's and the slope's. */
 static void a_first_slope_gives_a_height(void **state)
 {
@@ -271,6 +326,8 @@ int main(void)
         cmocka_unit_test(the_noise_is_that_of_drawn_places),
         cmocka_unit_test(nothing_is_done_without_a_slope_or_within_a_metre),
         cmocka_unit_test(updates_agree_with_the_joseph_form),
+        cmocka_unit_test(the_density_of_a_slope_agrees_with_the_linearised_filter),
+        cmocka_unit_test(a_height_of_another_estimate_is_taken),
         cmocka_unit_test(a_first_slope_gives_a_height),
         cmocka_unit_test(heights_from_slopes_have_the_errors_that_they_tell),
         cmocka_unit_test(slopes_of_one_place_leave_the_range_uncertain),
