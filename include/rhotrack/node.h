@@ -358,7 +358,7 @@ RHO_MUST_CHECK enum rho_status rho_node_take(struct rho_node *node, const char *
  * RHO_NODE_NOTHING also where the node is not initialised. Steps that the tracker refuses are
  * counted and passed over. now_us INT64_MAX: no scan waits any longer, and commands that wait are
  * refused. Cost: that of rho_scan_assembler_next and of the chain; the plots of a scan are copied
- * where it waits. Stack: 4.6 KB.
+ * where it waits. Stack: 4.9 KB.
  */
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us);
 
@@ -376,7 +376,7 @@ int64_t rho_node_due_us(const struct rho_node *node);
  * (rho_tracker_set_sensor). Any two radars may share a window.
  * Errors: NULL, STATE (not initialised), TYPE (the build has no such scans), and those of
  * rho_tracker_step and rho_paper_starts_step; after the latter the step was made.
- * Stack: 4.4 KB.
+ * Stack: 4.7 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_step_scan(struct rho_node *node,
                                                   const struct rho_scan *scan);

@@ -171,7 +171,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_accepts(const struct rho_passive *pas
 
 /*
  * Adds a frame of bearings to the batch by rho_batch_push, and discards the tracks of the last
- * search. Errors: those of rho_batch_push. Stack: 160 bytes.
+ * search. Errors: those of rho_batch_push. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
                                                 const struct rho_frame *frame, uint8_t *fates);
@@ -195,7 +195,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
  * Searches all bearings for the best set of tracks, known and new, and says which known ones it
  * lacks: a track that began with bearings of several targets gives way to theirs. Bearings of other
  * owners are left out. Results: as of rho_passive_search, known[].is_beaten. Errors: NULL, STATE,
- * CAPACITY (more than RHO_MAX_PASSIVE_TRACKS that are not safe). Stack: 2.7 KB (embedded profile).
+ * CAPACITY (more than RHO_MAX_PASSIVE_TRACKS that are not safe). Stack: 2.8 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_challenge(struct rho_passive *passive,
                                                      struct rho_passive_known *known,

@@ -613,7 +613,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
  * rho_passive_accepts; nothing is changed, *report neither.
  * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one
  * rho_passive_search.
- * Stack: 4.4 KB (embedded profile).
+ * Stack: 4.7 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker,
                                                       struct rho_passive *passive,

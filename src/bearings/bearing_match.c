@@ -10,31 +10,19 @@
 
 #define N RHO_PASSIVE_STATES
 
-static float floored_sigma_rad(const struct rho_passive_search *search,
-                               const struct rho_batch_bearing *bearing)
+static inline float floored_sigma_rad(const struct rho_passive_search *search,
+                                      const struct rho_batch_bearing *bearing)
 {
     return bearing->sigma_rad > search->sigma_min_rad ? bearing->sigma_rad : search->sigma_min_rad;
 }
 
-static float floored_sigma_slope(const struct rho_passive_search *search,
-                                 const struct rho_batch_bearing *bearing)
+static inline float floored_sigma_slope(const struct rho_passive_search *search,
+                                        const struct rho_batch_bearing *bearing)
 {
-    return bearing->sigma_slope > 0.0f ? rho_larger(bearing->sigma_slope, search->sigma_min_rad)
-                                       : 0.0f;
+    return rho_larger(bearing->sigma_slope, search->sigma_min_rad);
 }
 
-struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
-                                                         unsigned scan, unsigned sensor,
-                                                         const float state_m[N])
-{
-    const struct rho_passive_look *look = &search->at[scan][sensor];
-    return (struct rho_passive_offset){
-        .x_m = state_m[RHO_PASSIVE_X] + look->step * state_m[RHO_PASSIVE_DX] - look->x_m,
-        .y_m = state_m[RHO_PASSIVE_Y] + look->step * state_m[RHO_PASSIVE_DY] - look->y_m,
-        .z_m = state_m[RHO_PASSIVE_Z] + look->step * state_m[RHO_PASSIVE_DZ] - look->z_m};
-}
-
-static float squared_range_m2(struct rho_passive_offset offset)
+static inline float squared_range_m2(struct rho_passive_offset offset)
 {
     return rho_square(offset.x_m) + rho_square(offset.y_m);
 }
@@ -91,12 +79,28 @@ static int may_have_bearing_near(const uint32_t *bins, struct rho_passive_offset
 }
 
 /* Height that the slope of a bearing tells at the state's range, above the state's. */
-static float height_above_m(const struct rho_batch_bearing *bearing,
-                            struct rho_passive_offset offset)
+static inline float height_above_m(const struct rho_batch_bearing *bearing,
+                                   struct rho_passive_offset offset)
 {
-    return bearing->sigma_slope > 0.0f
-               ? bearing->slope * rho_sqrt(squared_range_m2(offset)) - offset.z_m
-               : 0.0f;
+    return bearing->slope * rho_sqrt(squared_range_m2(offset)) - offset.z_m;
+}
+
+/* A state compared with a bearing of a look, index from 0. */
+static inline struct rho_passive_match match_with(const struct rho_passive_search *search,
+                                                  const struct rho_batch_bearing *bearings,
+                                                  int index, struct rho_passive_offset offset)
+{
+    const struct rho_batch_bearing *bearing = &bearings[index];
+    struct rho_passive_match match = {.bearing = index,
+                                      .offset = offset,
+                                      .cross_range_m =
+                                          bearing->sine * offset.x_m - bearing->cosine * offset.y_m,
+                                      .sigma_rad = floored_sigma_rad(search, bearing)};
+    if (bearing->sigma_slope > 0.0f) {
+        match.above_m = height_above_m(bearing, offset);
+        match.sigma_slope = floored_sigma_slope(search, bearing);
+    }
+    return match;
 }
 
 /*
@@ -109,30 +113,30 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
                                                      struct rho_passive_offset offset, int matching)
 {
     const unsigned most_claimed = (unsigned)matching & RHO_PASSIVE_ALSO_CLAIMED;
+    const int by_slope = search->has_slopes && ((unsigned)matching & RHO_PASSIVE_BY_SLOPE);
     const struct rho_passive *passive = search->passive;
     const struct rho_batch_bearing *bearings = passive->batch.bearings[scan][sensor];
     /* squared cross range that is MATCH_SIGMAS for the initial sigma of 1 / MATCH_SIGMAS rad */
-    float least_m2 = squared_range_m2(offset);
-    struct rho_passive_match nearest = {
-        .bearing = -1, .offset = offset, .sigma_rad = 1.0f / MATCH_SIGMAS};
+    float least_m2 = squared_range_m2(offset), least_sigma_rad = 1.0f / MATCH_SIGMAS;
+    int nearest = -1;
     for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
-        float cross_range_m = bearings[i].sine * offset.x_m - bearings[i].cosine * offset.y_m;
+        float off_m2 = rho_square(bearings[i].sine * offset.x_m - bearings[i].cosine * offset.y_m);
         float sigma_rad = floored_sigma_rad(search, &bearings[i]);
-        float off_m2 = rho_square(cross_range_m);
-        const float sigma_slope = floored_sigma_slope(search, &bearings[i]);
-        const float above_m = height_above_m(&bearings[i], offset);
-        if (sigma_slope > 0.0f && ((unsigned)matching & RHO_PASSIVE_BY_SLOPE)) {
-            off_m2 += rho_square(above_m * sigma_rad / sigma_slope);
+        if (by_slope && bearings[i].sigma_slope > 0.0f) {
+            off_m2 += rho_square(height_above_m(&bearings[i], offset) * sigma_rad /
+                                 floored_sigma_slope(search, &bearings[i]));
         }
-        if (off_m2 * rho_square(nearest.sigma_rad) < least_m2 * rho_square(sigma_rad) &&
+        if (off_m2 * rho_square(least_sigma_rad) < least_m2 * rho_square(sigma_rad) &&
             bearings[i].cosine * offset.x_m + bearings[i].sine * offset.y_m > 0.0f &&
             passive->is_claimed[scan][sensor][i] <= most_claimed) {
             least_m2 = off_m2;
-            nearest = (struct rho_passive_match){(int)i,    offset,  cross_range_m,
-                                                 sigma_rad, above_m, sigma_slope};
+            least_sigma_rad = sigma_rad;
+            nearest = (int)i;
         }
     }
-    return nearest;
+    return nearest < 0
+               ? (struct rho_passive_match){.bearing = -1, .offset = offset, .sigma_rad = 1.0f}
+               : match_with(search, bearings, nearest, offset);
 }
 
 struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
@@ -156,14 +160,8 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
     if (claim == 0 || !(squared_range_m2(offset) > 1.0f)) {
         return (struct rho_passive_match){.bearing = -1};
     }
-    const struct rho_batch_bearing *bearing =
-        &search->passive->batch.bearings[scan][sensor][claim - 1u];
-    return (struct rho_passive_match){(int)claim - 1,
-                                      offset,
-                                      bearing->sine * offset.x_m - bearing->cosine * offset.y_m,
-                                      floored_sigma_rad(search, bearing),
-                                      height_above_m(bearing, offset),
-                                      floored_sigma_slope(search, bearing)};
+    return match_with(search, search->passive->batch.bearings[scan][sensor], (int)claim - 1,
+                      offset);
 }
 
 float rho_passive_residual(const struct rho_passive_match *match)

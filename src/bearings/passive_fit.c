@@ -13,8 +13,8 @@
 #define N RHO_PASSIVE_STATES
 
 /* Adds the linear equation row . change = residual to the normal equations of the first states. */
-static void add_equation(int num_states, const float row[N], float weight, float residual,
-                         struct rho_passive_equations *equations)
+static inline void add_equation(int num_states, const float row[N], float weight, float residual,
+                                struct rho_passive_equations *equations)
 {
     for (int i = 0; i < num_states; i++) {
         for (int j = 0; j <= i; j++) {

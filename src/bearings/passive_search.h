@@ -109,9 +109,16 @@ void rho_passive_fit_pairs(struct rho_passive_search *search);
 struct rho_passive_offset {
     float x_m, y_m, z_m;
 };
-struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
-                                                         unsigned scan, unsigned sensor,
-                                                         const float state_m[RHO_PASSIVE_STATES]);
+static inline struct rho_passive_offset
+rho_passive_offset_from_sensor(const struct rho_passive_search *search, unsigned scan,
+                               unsigned sensor, const float state_m[RHO_PASSIVE_STATES])
+{
+    const struct rho_passive_look *look = &search->at[scan][sensor];
+    return (struct rho_passive_offset){
+        .x_m = state_m[RHO_PASSIVE_X] + look->step * state_m[RHO_PASSIVE_DX] - look->x_m,
+        .y_m = state_m[RHO_PASSIVE_Y] + look->step * state_m[RHO_PASSIVE_DY] - look->y_m,
+        .z_m = state_m[RHO_PASSIVE_Z] + look->step * state_m[RHO_PASSIVE_DZ] - look->z_m};
+}
 /* A bearing of a look compared with the position of a state. */
 struct rho_passive_match {
     /* index among the bearings of the look, from 0; -1: no bearing within six sigmas */

@@ -241,8 +241,8 @@ float rho_imm_weigh_models(float *probability, const float likelihood[2])
 }
 
 /* Returns 0 where neither model's NIS is in the gate, or the density is not usable. */
-static int combine_if_in_gate(const float factor[2], const float nis[2], int num_dimensions,
-                              struct rho_imm_match *match)
+static inline int combine_if_in_gate(const float factor[2], const float nis[2], int num_dimensions,
+                                     struct rho_imm_match *match)
 {
     if (!(nis[0] <= RHO_IMM_GATE || nis[1] <= RHO_IMM_GATE)) {
         return 0;

@@ -38,7 +38,7 @@ struct rho_expected_bearing {
 
 /*
  * Fills *expected with bearing i of a look as an estimate at its time expects it. Returns 0 where
- * that is nearer than a metre to the sensor. Cost: 300 instructions, 450 with a slope. Stack: 250
+ * that is nearer than a metre to the sensor. Cost: 300 instructions, 450 with a slope. Stack: 330
  * bytes.
  */
 int rho_bearing_expect(const struct rho_kalman *estimate, const struct rho_weighed_bearings *look,

@@ -234,14 +234,14 @@ RHO_MUST_CHECK enum rho_status rho_imm_update(struct rho_imm *imm,
 /*
  * Scores bearing i of a look at the estimate's time: returns 1 where it is in the gate of either
  * model, and fills its density a radian, and the mean variance of the models that explain it.
- * Stack: 400 bytes.
+ * Stack: 510 bytes.
  */
 int rho_imm_score_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
                           unsigned i, float *density, float *variance_rad2);
 
 /*
  * Adds bearing i of a look to the mixes of both models, at the estimate's time; an estimate nearer
- * than a metre to the sensor has no bearing, and nothing is added. Stack: 400 bytes.
+ * than a metre to the sensor has no bearing, and nothing is added. Stack: 500 bytes.
  */
 void rho_imm_mix_bearing(const struct rho_imm *imm, const struct rho_weighed_bearings *look,
                          unsigned i, struct rho_bearing_mix mixes[2]);

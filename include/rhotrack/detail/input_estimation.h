@@ -159,7 +159,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
                                                         float x_m, float y_m, float bearing_rad,
                                                         float sigma_rad);
 
-/* Updates with a slope, as rho_kalman_update_slope. Cost and stack: as for a bearing. */
+/* Updates with a slope, as rho_kalman_update_slope. Cost: as of a bearing. Stack: 620 bytes. */
 RHO_MUST_CHECK enum rho_status rho_input_update_slope(struct rho_input *input,
                                                       const struct rho_input_config *config,
                                                       const struct rho_slope *slope);

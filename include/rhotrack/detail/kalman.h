@@ -184,7 +184,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
 /*
  * Linearises a slope at an estimate, into *seen, in metres of height; for an estimate without a
  * height off_m is the height itself. Returns 0, and fills nothing, for a slope that is not
- * measured, and as rho_kalman_linearise_bearing. Cost: a square root, a division. Stack: 64 bytes.
+ * measured, and as rho_kalman_linearise_bearing. Cost: a square root, a division. Stack: 112 bytes.
  */
 int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho_slope *slope,
                                struct rho_kalman_bearing *seen);
@@ -192,7 +192,7 @@ int rho_kalman_linearise_slope(const struct rho_kalman *kalman, const struct rho
 /*
  * Density of a slope where an estimate expects it, and its NIS; 1 and 0 for a slope that is not
  * measured, and without a height: slopes of false bearings are as likely anywhere within a slope of
- * 1. Cost: about 150 instructions. Stack: 120 bytes.
+ * 1. Cost: about 150 instructions. Stack: 200 bytes.
  */
 float rho_kalman_slope_density(const struct rho_kalman *kalman, const struct rho_slope *slope,
                                float *nis);

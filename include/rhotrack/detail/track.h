@@ -241,7 +241,7 @@ float rho_track_noise_density(const struct rho_track *track, const struct rho_tr
 /*
  * Scores bearing i of a look by all models and hypotheses of a track, as plots are, or by its one
  * filter: returns 1 where it is in the gate, and fills its density, and the mean variance of what
- * explains it. Weights of the look are not read. Stack: 650 bytes.
+ * explains it. Weights of the look are not read. Stack: 870 bytes.
  */
 int rho_track_score_bearing(const struct rho_track *track, const struct rho_track_model *model,
                             const struct rho_weighed_bearings *look, unsigned i, float *density,
@@ -264,7 +264,7 @@ rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
  * is_claimed. Bearings of several sensors in one step count as one hit: the first one, while plot
  * is -1. gain_mnat is added to the score. rho_track_merge_estimates decides which inputs are
  * present. Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its
- * hypotheses. Cost: two predictions and an update, and a prediction a bearing. Stack: 1.4 KB.
+ * hypotheses. Cost: two predictions and an update, and a prediction a bearing. Stack: 1.5 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update_bearings(struct rho_track *track,
                                                          const struct rho_weighed_bearings *look,
