@@ -25,6 +25,7 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
+#include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/recent_bearing_frames.h"
 #include "rhotrack/types.h"
 
@@ -85,8 +86,8 @@ struct rho_passive_point {
 
 /* A crossing's partner: both together are a hypothesis of constant velocity. */
 struct rho_passive_partner {
-    float agreement; /* of the bearings with it; 0: none, or used */
-    uint16_t point;  /* index of the later crossing in points[] */
+    uint16_t agreement; /* of the bearings with it, in 1/500 of a look; 0: none, or used */
+    uint16_t point;     /* index of the later crossing in points[] */
 };
 #define RHO_PASSIVE_PARTNERS 2u /* best ones of each crossing that are kept */
 
@@ -147,8 +148,8 @@ struct rho_passive {
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
     struct rho_passive_partner partners[RHO_MAX_PASSIVE_POINTS][RHO_PASSIVE_PARTNERS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
-    /* number of bearings that two candidates both claim */
-    uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES];
+    /* number of bearings that two candidates both claim, a lower triangle */
+    uint8_t shared[RHO_TRIANGLE(RHO_MAX_PASSIVE_CANDIDATES)];
     struct rho_passive_set best;
 };
 

@@ -29,7 +29,7 @@ static void toggle_candidate(struct rho_passive_choice *choice, unsigned which)
     choice->is_in[which] = !choice->is_in[which];
     for (unsigned i = 0; i < choice->count; i++) {
         if (i != which) {
-            unsigned shared = passive->shared[which][i];
+            unsigned shared = passive->shared[RHO_AT(which, i)];
             choice->gain_nat[i] -= sign * choice->search->share_nat * (float)shared;
         }
     }
@@ -86,8 +86,8 @@ void rho_passive_choose(const struct rho_passive_search *search, struct rho_pass
     struct rho_passive *passive = search->passive;
     rho_passive_rank_candidates(passive, order);
     for (unsigned i = 0; i < passive->num_candidates; i++) {
-        for (unsigned j = 0; j < passive->num_candidates; j++) {
-            passive->shared[i][j] = (uint8_t)rho_passive_count_shared(
+        for (unsigned j = 0; j <= i; j++) {
+            passive->shared[RHO_AT(i, j)] = (uint8_t)rho_passive_count_shared(
                 search, &passive->candidates[i], &passive->candidates[j]);
         }
     }
@@ -111,7 +111,7 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
     const struct rho_passive_equations known = rho_passive_equate_claims(choice->search, target);
     float least = SAME_TARGET_SHARE * (float)target->hits;
     for (unsigned i = 0; i < choice->count; i++) {
-        if (i == which || (float)passive->shared[which][i] >= least ||
+        if (i == which || (float)passive->shared[RHO_AT(which, i)] >= least ||
             rho_passive_distance2(choice->search, &known, target->state_m,
                                   passive->candidates[i].state_m) <
                 SAME_TARGET_SIGMAS * SAME_TARGET_SIGMAS) {

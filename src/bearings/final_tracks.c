@@ -21,7 +21,7 @@ static float total_without_target(const struct rho_passive_search *search,
     float most_nat = 0.0f;
     rho_passive_exclude_target(&without, which);
     for (unsigned i = 0; i <= choice->count; i++) {
-        if (i == choice->count || (!without.is_out[i] && passive->shared[which][i] > 0)) {
+        if (i == choice->count || (!without.is_out[i] && passive->shared[RHO_AT(which, i)] > 0)) {
             struct rho_passive_choice tried = without;
             rho_passive_add_gaining(&tried, i);
             rho_passive_improve_choice(&tried);

@@ -8,6 +8,9 @@
 #include "passive_search.h"
 #include "policy.h"
 
+/* Parts of a look in which agreements are kept: those of 128 looks, the most, fit 16 bits. */
+#define AGREEMENT_PARTS 500.0f
+
 /*
  * The 2 x 2 matrix that takes a target's displacement to how far from its middle place the rays of
  * bearings of two times meet: R^-1 diag(step) R, with the rows of R across the rays, and the middle
@@ -84,7 +87,10 @@ static void list_partners(struct rho_passive_search *search)
                 continue;
             }
             unsigned place = RHO_PASSIVE_PARTNERS - 1u;
-            const float agreement = rho_passive_agreement(search, state_m, best[place].agreement);
+            const uint16_t agreement =
+                (uint16_t)(AGREEMENT_PARTS *
+                           rho_passive_agreement(search, state_m,
+                                                 (float)best[place].agreement / AGREEMENT_PARTS));
             passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
             if (agreement > best[place].agreement) {
                 for (; place > 0 && agreement > best[place - 1u].agreement; place--) {
@@ -149,7 +155,7 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
         for (uint32_t i = 0; i < passive->num_points; i++) {
             for (unsigned n = 0; n < RHO_PASSIVE_PARTNERS; n++) {
                 struct rho_passive_partner *one = &passive->partners[i][n];
-                if (one->agreement > (best ? best->agreement : 0.0f)) {
+                if (one->agreement > (best ? best->agreement : 0u)) {
                     best = one;
                     of = i;
                 }
@@ -161,7 +167,7 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
         const struct rho_passive_point *a = &passive->points[of];
         const struct rho_passive_point *b = &passive->points[best->point];
         float state_m[RHO_PASSIVE_STATES];
-        best->agreement = 0.0f;
+        best->agreement = 0;
         if (!is_found(passive, a, b) && rho_passive_connect_crossings(search, a, b, state_m)) {
             rho_passive_fit_nearest(search, find_height(search, a, b, state_m), state_m);
             rho_passive_offer_if_track(search, state_m);
