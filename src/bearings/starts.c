@@ -138,8 +138,7 @@ static int find_height(const struct rho_passive_search *search, const struct rho
     memcpy(of.state_m, state_m, sizeof of.state_m);
     claim_crossing(&of, a);
     claim_crossing(&of, b);
-    const int has_height = search->has_slopes &&
-                           rho_passive_equate_claims(search, &of).num_slopes > 0 &&
+    const int has_height = rho_passive_equate_claims(search, &of).num_slopes > 0 &&
                            rho_passive_step_to_claims(search, &of);
     memcpy(state_m, of.state_m, sizeof of.state_m);
     return has_height;
@@ -169,7 +168,8 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
         float state_m[RHO_PASSIVE_STATES];
         best->agreement = 0;
         if (!is_found(passive, a, b) && rho_passive_connect_crossings(search, a, b, state_m)) {
-            rho_passive_fit_nearest(search, find_height(search, a, b, state_m), state_m);
+            rho_passive_fit_nearest(
+                search, search->has_slopes && find_height(search, a, b, state_m), state_m);
             rho_passive_offer_if_track(search, state_m);
             fits++;
         }

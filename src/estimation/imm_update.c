@@ -317,13 +317,13 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
 }
 
 /* The estimate of a model, 0 the steady one; scratch is for the other's. */
-static struct rho_kalman *estimate_of(struct rho_kalman *scratch, const struct rho_imm *imm,
-                                      int model)
+static const struct rho_kalman *estimate_of(struct rho_kalman *scratch, const struct rho_imm *imm,
+                                            int model)
 {
-    *scratch = imm->steady;
-    if (model > 0) {
-        load_kinematics(scratch, imm->state, imm->covariance);
+    if (model == 0) {
+        return &imm->steady;
     }
+    load_kinematics(scratch, imm->state, imm->covariance);
     return scratch;
 }
 

@@ -24,6 +24,6 @@ void rho_step_predict(struct step *step)
         }
     }
     if (step->frame) {
-        rho_step_merge_estimates(step); /* bearings are gated by one estimate of each track */
+        rho_step_merge_estimates(step); /* coverage goes by one estimate of each track */
     }
 }
