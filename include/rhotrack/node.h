@@ -28,19 +28,15 @@
  *     }
  *
  * The node holds all that the build has (config.h): scan assembler, tracker, report, the first
- * initiation window, frames of bearings, passive search, the papers' methods, zones, learned walls,
- * an operator's commands. All may be read; what the tracker is told (sensors, walls, excluded
+ * initiation window, passive search, the papers' methods, zones, learned walls, an operator's
+ * commands. All may be read; what the tracker is told (sensors, walls, excluded
  * areas) is told to node.tracker by its own functions, known sensors to node.assembler
  * (rho_scan_assembler_set_sensor), between two calls of the node.
  *
  * Chain      A step of a scan: its window's initiator, rho_tracker_step, starts by the papers'
  *            method where that is chosen, learning of walls, commands of the operator, zones. A
- *            frame of bearings likewise, without windows and walls.
- * Order      Scans are stepped in the order in which the scan assembler gives them. Scans of
- *            bearings become frames; scans of plots wait for the open frame where that began before
- *            them, as far as there is room (RHO_MAX_WAITING_SCANS): else the frame closes. An open
- *            frame closes when no scan has come for tolerance_us of the frames and hold_us
- *            together.
+ *            scan of bearings likewise, without windows and walls.
+ * Order      Scans are stepped in the order in which the scan assembler gives them.
  * Windows    Two radars of much the same coverage start tracks from one window (RHO_NODE_PAIRS):
  *            with twice the plots they find targets sooner. They pair in the order of their
  *            descriptions. Three radars would be too many for a window of seven scans; and radars
@@ -50,21 +46,18 @@
  *            rho_node_add_storage. Where there is none, radars share the last one.
  * Sensors    Each sensor is described to the tracker before its scan is stepped. Where the tracker
  *            has no room for another one, it forgets those that have been silent for jump_max_us.
- *            Frames begin anew where a passive sensor that is silent for jump_max_us keeps another
- *            one out of them, and where 16 successive scans of a passive sensor are refused: it may
- *            have moved.
  * Restart    Where the sensors' clock was set, tracks cannot go on: after the last step of the old
  *            time the node begins anew, with the next epoch. Configuration, counters, zones, walls,
- *            excluded areas and the clutter map's standing echoes stay; tracks, windows, frames and
- *            the searches' batches are empty.
+ *            excluded areas and the clutter map's standing echoes stay; tracks, windows and the
+ *            searches' batches are empty.
  * Commands   Run after the next step, at most a minute later, and answered. Nothing proves who sent
  *            them: takes_commands is for private networks. A setting changes the node's settings as
  *            if it had been started with them.
  * Snapshot   rho_node_list_parts and rho_snapshot_save save the node, rho_node_load loads it. Where
  *            the first scan is more than jump_max_us older than the snapshot, the node restarts.
  *
- * A program that has scans already calls rho_node_step_scan and rho_node_step_frame instead of
- * rho_node_take and rho_node_next.
+ * A program that has scans already calls rho_node_step_scan and rho_node_step_bearings instead
+ * of rho_node_take and rho_node_next.
  *
  * Stack: 40 bytes at most where nothing else is said.
  */
@@ -75,7 +68,6 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/frames.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/message.h"
 #include "rhotrack/paper_starts.h"
@@ -95,7 +87,6 @@ RHO_BEGIN_C
 #define RHO_NODE_HAS_BEARINGS (((RHO_SCAN_KINDS)&4) != 0)
 #define RHO_NODE_HAS_PASSIVE (RHO_NODE_HAS_BEARINGS && (RHO_SEARCHES))
 #define RHO_NODE_HAS_PASSIVE_PAPER (RHO_NODE_HAS_BEARINGS && (RHO_PAPERS))
-#define RHO_NODE_HAS_WAITING (RHO_NODE_HAS_BEARINGS && RHO_MAX_WAITING_SCANS > 0)
 
 /* Which radars share an initiation window. */
 enum rho_node_windows {
@@ -121,7 +112,6 @@ struct rho_node_config {
     struct rho_scan_assembler_config assembler;
     struct rho_initiator_config initiator;
     struct rho_passive_config passive;
-    struct rho_frames_config frames;
     struct rho_paper_starts_config paper_starts;
     struct rho_passive_paper_config passive_paper;
     /* largest range of passive sensors whose range is not described; 0: 2 RHO_LIMIT_POSITION_M */
@@ -139,8 +129,7 @@ struct rho_node_counters {
     uint32_t scans_early;
     uint32_t scans_refused;  /* scans that the tracker refused, or whose sensor it refused */
     uint32_t plots_refused;  /* plots of scans whose sensor the tracker refused */
-    uint32_t frames_refused; /* frames that the tracker refused */
-    /* scans of bearings whose sensor is too far from the others, or has no room in the frames */
+    /* scans of bearings whose sensor has no room beside the others, or is too far from them */
     uint32_t bearings_refused;
     uint32_t sensors_refused; /* descriptions of sensors that the tracker refused */
     /* descriptions of silent sensors that the tracker was made to forget */
@@ -158,18 +147,10 @@ struct rho_node_timing {
 /* What rho_node_next has done. */
 enum rho_node_due {
     RHO_NODE_NOTHING = 0,
-    RHO_NODE_SCAN,    /* stepped a scan of plots, `scan` of the node */
-    RHO_NODE_FRAME,   /* stepped a frame of bearings */
-    RHO_NODE_RESTART, /* begun anew on another clock of the sensors */
-    RHO_NODE_ANSWER   /* refused commands: only their answers are to be published */
-};
-
-/* A scan of plots that waits for the step of the open frame. */
-struct rho_node_waiting {
-    struct rho_scan scan;
-    struct rho_sensor sensor;
-    int has_sensor;
-    struct rho_plot plots[RHO_MAX_PLOTS];
+    RHO_NODE_SCAN,     /* stepped a scan of plots, `scan` of the node */
+    RHO_NODE_BEARINGS, /* stepped a scan of bearings */
+    RHO_NODE_RESTART,  /* begun anew on another clock of the sensors */
+    RHO_NODE_ANSWER    /* refused commands: only their answers are to be published */
 };
 
 /* An operator's command or setting that waits for the end of a step; and its answer. */
@@ -219,15 +200,11 @@ struct rho_node {
 
     /* private, up to the parts: the scan that was taken last from the assembler */
     struct rho_scan_assembler_item item;
-    int64_t frame_due_us; /* when the open frame closes; INT64_MAX: only another scan does it */
     float passive_range_max_m;
     struct rho_node_options options;
-    uint8_t first_waiting, num_waiting;
     uint8_t is_restored; /* 1: a snapshot was loaded, and no scan has come since */
     uint8_t has_item;    /* item holds a scan that is not stepped yet */
     uint8_t is_making_room;
-    uint8_t is_forgetting;
-    uint8_t has_closed;
     uint8_t done;         /* enum rho_node_due: what the last call for steps has done */
     uint8_t next_learned; /* place of the sensor whose learned_t rho_node_learned makes next */
 
@@ -241,14 +218,8 @@ struct rho_node {
     struct rho_plot unpacked[RHO_MAX_PLOTS]; /* private: scratch of a radar that leaves a window */
     uint8_t fates[RHO_MAX_PLOTS];
 #endif
-#if RHO_NODE_HAS_BEARINGS
-    struct rho_frames frames;
-#endif
 #if RHO_NODE_HAS_PASSIVE
     struct rho_passive passive;
-#endif
-#if RHO_NODE_HAS_WAITING
-    struct rho_node_waiting waiting[RHO_MAX_WAITING_SCANS]; /* private: ring in order of time */
 #endif
 #if RHO_PAPERS
     struct rho_paper_starts paper_starts;
@@ -296,8 +267,8 @@ RHO_MUST_CHECK enum rho_status rho_node_configure(struct rho_node *node,
                                                   const struct rho_node_config *config);
 
 /*
- * Gives the parts for bearings alone other configurations: frames, passive_range_max_m, passive
- * search, and the papers' search where is_bearings_by_paper is set. They begin anew; tracks go on.
+ * Gives the parts for bearings alone other configurations: passive_range_max_m, passive search,
+ * and the papers' search where is_bearings_by_paper is set. They begin anew; tracks go on.
  * Errors: NULL, STATE, CONFIG, as rho_node_configure; TYPE (RHO_SCAN_KINDS has no bearings): the
  * node goes on. Cost: their bytes cleared. Stack: 300 bytes.
  */
@@ -357,8 +328,7 @@ RHO_MUST_CHECK enum rho_status rho_node_take(struct rho_node *node, const char *
  * Makes the next step that is due, or restarts the node, and returns what it has done;
  * RHO_NODE_NOTHING also where the node is not initialised. Steps that the tracker refuses are
  * counted and passed over. now_us INT64_MAX: no scan waits any longer, and commands that wait are
- * refused. Cost: that of rho_scan_assembler_next and of the chain; the plots of a scan are copied
- * where it waits. Stack: 4.9 KB.
+ * refused. Cost: that of rho_scan_assembler_next and of the chain. Stack: 4.9 KB.
  */
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us);
 
@@ -372,7 +342,7 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us);
 int64_t rho_node_due_us(const struct rho_node *node);
 
 /*
- * Steps a scan or a frame by the same chain. The tracker is to know its sensor
+ * Steps a scan of plots or bearings by the same chain. The tracker is to know its sensor
  * (rho_tracker_set_sensor). Any two radars may share a window.
  * Errors: NULL, STATE (not initialised), TYPE (the build has no such scans), and those of
  * rho_tracker_step and rho_paper_starts_step; after the latter the step was made.
@@ -380,12 +350,12 @@ int64_t rho_node_due_us(const struct rho_node *node);
  */
 RHO_MUST_CHECK enum rho_status rho_node_step_scan(struct rho_node *node,
                                                   const struct rho_scan *scan);
-RHO_MUST_CHECK enum rho_status rho_node_step_frame(struct rho_node *node,
-                                                   const struct rho_frame *frame);
+RHO_MUST_CHECK enum rho_status rho_node_step_bearings(struct rho_node *node,
+                                                      const struct rho_bearing_scan *scan);
 
 /*
- * Number of messages of the last rho_node_next, rho_node_step_scan or rho_node_step_frame: answers
- * to an operator; after a step tracks in parts, peaks, bodies in parts where the tracker estimates
+ * Number of messages of the last rho_node_next, rho_node_step_scan or rho_node_step_bearings:
+ * answers to an operator; after a step tracks in parts, peaks, bodies in parts where the tracker estimates
  * them, and events of zones, if any. Cost: with bodies, that of rho_publish_num_body_parts.
  */
 uint16_t rho_node_num_messages(const struct rho_node *node);

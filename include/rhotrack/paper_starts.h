@@ -6,8 +6,8 @@
  *     rho_tracker_step(tracker, NULL, scan, report)
  *     rho_paper_starts_step(starts, tracker, scan, report)                    plots: hough.h
  *
- *     rho_tracker_step_frame(tracker, NULL, frame, report)
- *     rho_passive_paper_step(paper, tracker, frame, report)                   bearings:
+ *     rho_tracker_step_bearings(tracker, NULL, scan, report)
+ *     rho_passive_paper_step(paper, tracker, scan, report)                    bearings:
  *                                                                             passive_paper.h
  *
  * A line starts a confirmed track where plots of enough scans, the newest among them, voted for it.
@@ -103,14 +103,14 @@ RHO_MUST_CHECK enum rho_status rho_paper_starts_step(struct rho_paper_starts *st
 struct rho_hough_points rho_paper_starts_points(const struct rho_paper_starts *starts);
 
 /*
- * Starts tracks from a frame of bearings: unclaimed bearings go into the paper's batch, and each
- * line that all pairs of sensors confirm starts a track. The track's covariance is that of the fit
+ * Starts tracks from bearings: unclaimed ones go into the paper's batch, and once each sensor has
+ * looked, each line that all pairs of sensors confirm starts a track. The track's covariance is that of the fit
  * through the line's crossings, by their scatter. Errors: NULL, STATE, and those of
  * rho_passive_paper_push. Cost: rho_passive_paper_search of a full batch. Stack: 4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper,
                                                       struct rho_tracker *tracker,
-                                                      const struct rho_frame *frame,
+                                                      const struct rho_bearing_scan *scan,
                                                       struct rho_report *report);
 
 RHO_END_C

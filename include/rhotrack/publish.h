@@ -39,7 +39,6 @@
 #include <stdint.h>
 
 #include "rhotrack/body.h"
-#include "rhotrack/frames.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/message.h"
 #include "rhotrack/paper_starts.h"
@@ -104,7 +103,7 @@ RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *ini
  * NULL counts as zeros. fragments_refused, step_us, step_max_us and the origin are 0: the caller
  * fills them. Cost: RHO_MAX_TRACKS. Stack: 120 bytes.
  */
-void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,
+void rho_publish_status(const struct rho_scan_assembler *assembler,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status);
 

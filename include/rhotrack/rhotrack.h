@@ -29,7 +29,6 @@
 
 /* Scans and tracks as messages. */
 #include "rhotrack/command.h"
-#include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
 #include "rhotrack/publish.h"

@@ -514,8 +514,7 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
  *
  *     support = sum of p r      shared = sum of p (1 - r)      clutter = 1 - sum of p
  *
- * are the truth, indeterminacy and falsity of neutrosophic sets, and add up to 1. In a frame they
- * are those of the last sensor's scan, in a scan in parts (RHO_CLAIMS_BEYOND) of the last part.
+ * are the truth, indeterminacy and falsity of neutrosophic sets, and add up to 1. In a scan in parts (RHO_CLAIMS_BEYOND) of the last part.
  */
 struct rho_tracker_evidence {
     float support; /* probability of a plot that is this track's alone */
@@ -594,31 +593,28 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
                                                           struct rho_report *report);
 
 /*
- * Processes one frame of bearings in all phases: its scans in their order, with the bearings' own
- * times.
+ * Processes one scan of bearings in all phases, as rho_tracker_step does one of plots. Both may be
+ * mixed: they update the same tracks. Sensors look when they like; those that look at one time come
+ * one after the other.
  *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held
  *            nowhere (fate NO_ROOM); else its batch takes the bearings, and tracks are challenged
  *            (rho_passive_challenge) once a row. A found track with a score of start_mnat or more
  *            is started, confirmed at once, or takes the place of one that it beats.
- *   frame    one scan a sensor; bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS of
- *            a scan NO_ROOM. A frame older than the last accepted scan or frame is late: all its
- *            bearings are STALE
- *   report   filled whole; fates in the order of the frame's scans. A track's plot and sensor_id
- *            are those of the last bearing that it claimed
- * A track has one hit or one miss a frame; its score counts every sensor. Frames and scans of plots
- * may be mixed: they update the same tracks.
- * Errors: NULL, STATE (tracker or passive not initialised), CONFIG (passive, without RHO_SEARCHES),
- * VALUE (a place that is no coordinate, a sector beyond one turn either way, a time beyond
- * RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its frame), and those of
- * rho_passive_accepts; nothing is changed, *report neither.
- * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one
- * rho_passive_search.
+ *   scan     bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS NO_ROOM. A scan older
+ *            than the newest accepted one is late: all its bearings are STALE
+ *   report   filled whole
+ * Errors: NULL, STATE (tracker or passive not initialised, or a scan of this sensor's newest time),
+ * CONFIG (passive, without RHO_SEARCHES), VALUE (a place that is no coordinate, a sector beyond one
+ * turn either way, a time beyond RHO_LIMIT_TIME_US), and those of rho_passive_accepts; nothing is
+ * changed, *report neither.
+ * Cost: live tracks x bearings gate tests, an assignment, updates, and once a row of looks a
+ * rho_passive_challenge.
  * Stack: 4.7 KB (embedded profile).
  */
-RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker,
-                                                      struct rho_passive *passive,
-                                                      const struct rho_frame *frame,
-                                                      struct rho_report *report);
+RHO_MUST_CHECK enum rho_status rho_tracker_step_bearings(struct rho_tracker *tracker,
+                                                         struct rho_passive *passive,
+                                                         const struct rho_bearing_scan *scan,
+                                                         struct rho_report *report);
 
 /*
  * True where a tracker of unknown origin (a snapshot, memory that outlived a reset) is safe to use:

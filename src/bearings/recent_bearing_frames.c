@@ -36,14 +36,25 @@ static float distance_m(float x_m, float y_m, float other_x_m, float other_y_m)
     return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
 }
 
-/* Index of the sensor with this sensor_id in the batch; num_sensors: the batch has none. */
-static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
+/* A silent sensor's index is free for another one, and no row waits for it. */
+static int is_heard(const struct rho_batch_sensor *sensor, int64_t time_us)
 {
-    unsigned i = 0;
-    while (i < batch->num_sensors && batch->sensors[i].sensor_id != sensor_id) {
-        i++;
+    return apart_us(sensor->looked_us, time_us) <= RHO_LIMIT_OFFSET_US;
+}
+
+/* Index of the sensor, known or not; RHO_MAX_PASSIVE_SENSORS: all are of sensors that are heard. */
+static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id, int64_t time_us)
+{
+    unsigned place = batch->num_sensors;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        if (batch->sensors[s].sensor_id == sensor_id) {
+            return s;
+        }
+        if (place == RHO_MAX_PASSIVE_SENSORS && !is_heard(&batch->sensors[s], time_us)) {
+            place = s;
+        }
     }
-    return i;
+    return place;
 }
 
 /* A sensor must be near enough to the others, and in a frame once; more than four share less. */
@@ -62,7 +73,7 @@ static int is_sensor_usable(const struct rho_batch *batch, const struct rho_fram
     const float apart_max_m = batch->apart_max_m * 0.5f * n / (n - 2.0f);
     for (unsigned i = 0; i < batch->num_sensors; i++) {
         const struct rho_batch_sensor *other = &batch->sensors[i];
-        if (scan->sensor_id != other->sensor_id &&
+        if (scan->sensor_id != other->sensor_id && is_heard(other, frame->time_us) &&
             !(distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m) <= apart_max_m)) {
             return 0;
         }
@@ -82,10 +93,13 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
     if (!batch || !frame || (frame->num_scans > 0 && !frame->scans)) {
         return RHO_ERROR_NULL;
     }
-    if (batch->num_scans > 0 && frame->time_us <= batch->newest_us) {
+    if (batch->num_scans > 0 && frame->time_us < batch->newest_us) {
         return RHO_ERROR_STATE;
     }
-    unsigned num_sensors = batch->num_sensors;
+    unsigned num_sensors = 0;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        num_sensors += (unsigned)is_heard(&batch->sensors[s], frame->time_us);
+    }
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
         if (scan->num_bearings > 0 && !scan->bearings) {
@@ -95,7 +109,13 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
             !rho_angle_is_valid_sector(scan->sector_from_rad, scan->sector_to_rad)) {
             return RHO_ERROR_VALUE;
         }
-        num_sensors += find_sensor(batch, scan->sensor_id) == batch->num_sensors;
+        const unsigned s = find_sensor(batch, scan->sensor_id, frame->time_us);
+        const int is_known = s < batch->num_sensors &&
+                             is_heard(&batch->sensors[s], frame->time_us);
+        if (is_known && batch->sensors[s].looked_us == frame->time_us) {
+            return RHO_ERROR_STATE;
+        }
+        num_sensors += !is_known;
         if (num_sensors > RHO_MAX_PASSIVE_SENSORS) {
             return RHO_ERROR_CAPACITY;
         }
@@ -127,7 +147,7 @@ static float longest_interval_s(const struct rho_batch *batch)
 static int has_looks_of_all(const struct rho_batch *batch, unsigned scan)
 {
     unsigned s = 0;
-    while (s < batch->num_sensors && batch->was_seen[scan][s]) {
+    while (s < batch->num_sensors && (batch->was_seen[scan][s] || !is_heard(&batch->sensors[s], batch->newest_us))) {
         s++;
     }
     return s == batch->num_sensors;
@@ -145,8 +165,8 @@ static int joins_newest_row(const struct rho_batch *batch, const struct rho_fram
     }
     int is_lacking = 1;
     for (uint32_t i = 0; i < frame->num_scans; i++) {
-        const unsigned s = find_sensor(batch, frame->scans[i].sensor_id);
-        is_lacking &= s == batch->num_sensors || !batch->was_seen[newest][s];
+        const unsigned s = find_sensor(batch, frame->scans[i].sensor_id, frame->time_us);
+        is_lacking &= s >= batch->num_sensors || !batch->was_seen[newest][s];
     }
     const float age_s = rho_seconds_between(batch->time_us[newest], frame->time_us);
     const float interval_s = longest_interval_s(batch);
@@ -163,13 +183,30 @@ static void count_left(struct rho_batch *batch, unsigned scan, unsigned sensor)
     }
 }
 
+/* Index of a scan's sensor: what another one had at it goes. */
+static unsigned give_index(struct rho_batch *batch, const struct rho_bearing_scan *scan)
+{
+    const unsigned s = find_sensor(batch, scan->sensor_id, batch->newest_us);
+    if (s == batch->num_sensors) {
+        batch->num_sensors++;
+    } else if (batch->sensors[s].sensor_id != scan->sensor_id) {
+        for (unsigned k = 0; k < batch->num_scans; k++) {
+            count_left(batch, k, s);
+            batch->num_bearings[k][s] = batch->was_seen[k][s] = 0;
+        }
+    }
+    batch->sensors[s] = (struct rho_batch_sensor){.looked_us = batch->newest_us,
+                                                  .sensor_id = scan->sensor_id,
+                                                  .x_m = scan->x_m,
+                                                  .y_m = scan->y_m};
+    return s;
+}
+
 /* Stores a scan, and those of its bearings to be held; others it refuses get their fate. */
 static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *scan, uint8_t *fates,
                        const struct rho_batch_owner *owners)
 {
-    const unsigned k = batch->num_scans - 1u, s = find_sensor(batch, scan->sensor_id);
-    batch->num_sensors = (uint16_t)(batch->num_sensors + (s == batch->num_sensors));
-    batch->sensors[s] = (struct rho_batch_sensor){scan->sensor_id, scan->x_m, scan->y_m};
+    const unsigned k = batch->num_scans - 1u, s = give_index(batch, scan);
     const int64_t time_us = scan->time_us != 0 ? scan->time_us : batch->newest_us;
     batch->looks[k][s] =
         (struct rho_batch_look){.offset_us = (int32_t)(time_us - batch->time_us[k]),

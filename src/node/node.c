@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* node: messages in, and what is stepped next: scans, frames of bearings, restarts. */
+/* node: messages in, and what is stepped next: scans of plots or bearings, restarts. */
 #include "rhotrack/node.h"
 
 #include <string.h>
 
 #include "node_parts.h"
-
-/* Least number of passive sensors whose bearings give positions. */
-#define PASSIVE_MIN 2
 
 /*
  * Values of is_making_room: when the assembler has no room for a message (WANTED), one scan is
@@ -16,122 +13,44 @@
 enum { ROOM_ENOUGH = 0, ROOM_WANTED, ROOM_MADE };
 
 /* Refuses a scan whose sensor the tracker does not take: the sensor's position would be unknown. */
-static enum rho_node_due give_scan(struct rho_node *node, const struct rho_scan *scan,
-                                   const struct rho_sensor *sensor)
+static enum rho_node_due give_scan(struct rho_node *node)
 {
-    if (sensor && !rho_node_sensor_describe(node, sensor)) {
+    const struct rho_scan_assembler_item *item = &node->item;
+    if (item->has_sensor && !rho_node_sensor_describe(node, &item->sensor)) {
         node->counters.scans_refused = rho_count(node->counters.scans_refused, 1);
-        node->counters.plots_refused = rho_count(node->counters.plots_refused, scan->num_plots);
+        node->counters.plots_refused =
+            rho_count(node->counters.plots_refused, item->scan.num_plots);
         return RHO_NODE_NOTHING;
     }
-    node->scan = *scan;
+    node->scan = item->scan;
     return RHO_NODE_SCAN;
 }
 
-static unsigned place_of_waiting(const struct rho_node *node, unsigned number)
+/* A bearing scan says its sensor's place itself. */
+static enum rho_node_due give_bearings(struct rho_node *node)
 {
-    return (node->first_waiting + number) % (RHO_MAX_WAITING_SCANS > 0 ? RHO_MAX_WAITING_SCANS : 1);
-}
-
-static void let_item_wait(struct rho_node *node)
-{
-    struct rho_node_waiting *waiting =
-        NODE_WAITING(node) + place_of_waiting(node, node->num_waiting++);
-    waiting->scan = node->item.scan;
-    waiting->sensor = node->item.sensor;
-    waiting->has_sensor = node->item.has_sensor;
-    memcpy(waiting->plots, node->item.scan.plots,
-           node->item.scan.num_plots * sizeof(struct rho_plot));
-    waiting->scan.plots = waiting->plots;
-}
-
-static enum rho_node_due give_waiting(struct rho_node *node)
-{
-    const struct rho_node_waiting *first = NODE_WAITING(node) + node->first_waiting;
-    node->num_waiting--;
-    node->first_waiting = (uint8_t)place_of_waiting(node, 1);
-    return give_scan(node, &first->scan, first->has_sensor ? &first->sensor : NULL);
-}
-
-/*
- * Gives the item's scan; while an older frame is open the scan waits, or closes it if none may
- * wait.
- */
-static enum rho_node_due give_item(struct rho_node *node)
-{
-    const struct rho_frames_slot *frame = rho_node_frames_open(node);
-    const struct rho_scan_assembler_item *item = &node->item;
-    if (node->num_waiting == 0 && (!frame || frame->time_us >= item->scan.time_us)) {
-        node->has_item = 0;
-        return give_scan(node, &item->scan, item->has_sensor ? &item->sensor : NULL);
-    }
-    if (RHO_NODE_HAS_WAITING && node->num_waiting != RHO_MAX_WAITING_SCANS) {
-        let_item_wait(node);
-        node->has_item = 0;
-    } else {
-        (void)rho_node_frames_close(node);
-    }
-    return RHO_NODE_NOTHING;
-}
-
-static enum rho_node_due give_closed_frame(struct rho_node *node)
-{
-    struct rho_frames *frames = NODE_FRAMES(node);
-    frames->config.sensors_min = PASSIVE_MIN;
-    if (node->has_closed == NODE_FRAME_CLOSED && frames->slots[1 - frames->open].is_restart) {
-        node->has_closed = NODE_FRAME_RESTARTED;
-        return RHO_NODE_RESTART;
-    }
-    node->has_closed = NODE_FRAME_NONE;
-    return RHO_NODE_FRAME;
-}
-
-/*
- * Gives the closed frame, and then the scans that have waited for it. Closes a frame that no scan
- * can join any more.
- */
-static enum rho_node_due give_held(struct rho_node *node)
-{
-    enum rho_node_due due = RHO_NODE_NOTHING;
-    const struct rho_frames_slot *frame;
-    int64_t time_us;
-    while (RHO_NODE_HAS_BEARINGS && due == RHO_NODE_NOTHING) {
-        if (node->has_closed) {
-            return give_closed_frame(node);
+    struct rho_sensor sensor = node->item.sensor;
+    if (node->item.has_sensor) {
+        if (node->passive_range_max_m > 0.0f && sensor.range_max_m >= RANGE_UNKNOWN_M) {
+            sensor.range_max_m = node->passive_range_max_m;
         }
-        if (!RHO_NODE_HAS_WAITING || node->num_waiting == 0) {
-            break;
-        }
-        frame = rho_node_frames_open(node);
-        time_us = NODE_WAITING(node)[node->first_waiting].scan.time_us;
-        if (!frame || frame->time_us >= time_us) {
-            due = give_waiting(node);
-        } else if (node->num_waiting == RHO_MAX_WAITING_SCANS ||
-                   time_us > frame->time_us + NODE_FRAMES(node)->config.tolerance_us) {
-            (void)rho_node_frames_close(node);
-        } else {
-            break;
-        }
+        (void)rho_node_sensor_describe(node, &sensor);
     }
-    return due;
+    return RHO_NODE_BEARINGS;
 }
 
-/* Takes the fetched scan. Before a restart, the open frame and the scans behind it are stepped. */
-static enum rho_node_due take_item(struct rho_node *node, int64_t now_us)
+/* Takes the fetched scan, after the restart that it tells. */
+static enum rho_node_due take_item(struct rho_node *node)
 {
     if (node->item.is_restart) {
-        if (rho_node_frames_close(node)) {
-            return RHO_NODE_NOTHING;
-        }
         node->item.is_restart = 0;
-        rho_node_frames_reset(node);
         return RHO_NODE_RESTART;
     }
-    if (RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        rho_node_frames_push(node, now_us);
-        return RHO_NODE_NOTHING;
+    node->has_item = 0;
+    if (!RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
+        return give_scan(node);
     }
-    return give_item(node);
+    return RHO_NODE_HAS_BEARINGS ? give_bearings(node) : RHO_NODE_NOTHING;
 }
 
 /* 1 where the first scan after a snapshot is jump_max_us older: it is of another clock. */
@@ -145,7 +64,7 @@ static int is_of_another_clock(const struct rho_node *node)
            time_us < tracker->time_us - node->assembler.config.jump_max_us;
 }
 
-/* Fetches a due scan, or closes a frame whose time has passed. Returns 0 where neither is due. */
+/* Fetches a due scan. Returns 0 where none is due. */
 static int fetch_item(struct rho_node *node, int64_t now_us)
 {
     struct rho_scan_assembler *assembler = &node->assembler;
@@ -164,8 +83,7 @@ static int fetch_item(struct rho_node *node, int64_t now_us)
         node->has_item = 1;
         return 1;
     }
-    return RHO_NODE_HAS_BEARINGS && room == ROOM_ENOUGH && now_us >= node->frame_due_us &&
-           rho_node_frames_close(node);
+    return 0;
 }
 
 static void do_due(struct rho_node *node, enum rho_node_due due)
@@ -178,9 +96,7 @@ static void do_due(struct rho_node *node, enum rho_node_due due)
     } else if (due == RHO_NODE_SCAN) {
         (void)!rho_node_chain_scan(node, &node->scan, 1); /* `done` says whether it was stepped */
     } else if (RHO_NODE_HAS_BEARINGS) {
-        struct rho_frame_view view;
-        (void)rho_frames_closed(NODE_FRAMES(node), &view);
-        (void)!rho_node_chain_frame(node, &view.frame); /* likewise */
+        (void)!rho_node_chain_bearings(node, &node->item.bearings); /* likewise */
     }
 }
 
@@ -189,10 +105,10 @@ static void do_next(struct rho_node *node, int64_t now_us)
 {
     int has_more = 1;
     while (has_more && node->done == RHO_NODE_NOTHING) {
-        enum rho_node_due due = give_held(node);
-        if (due == RHO_NODE_NOTHING && node->has_item) {
-            due = take_item(node, now_us);
-        } else if (due == RHO_NODE_NOTHING) {
+        enum rho_node_due due = RHO_NODE_NOTHING;
+        if (node->has_item) {
+            due = take_item(node);
+        } else {
             has_more = fetch_item(node, now_us);
         }
         if (due != RHO_NODE_NOTHING) {
@@ -242,9 +158,6 @@ int64_t rho_node_due_us(const struct rho_node *node)
     int64_t due_us = INT64_MAX;
     if (rho_node_is_ready(node)) {
         due_us = rho_scan_assembler_due_us(&node->assembler);
-        if (RHO_NODE_HAS_BEARINGS) {
-            due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
-        }
         due_us = rho_node_answers_due(node, due_us);
     }
     return due_us;

@@ -45,19 +45,20 @@ enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan
     return end_step(node, status);
 }
 
-enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_frame *frame)
+enum rho_status rho_node_chain_bearings(struct rho_node *node, const struct rho_bearing_scan *scan)
 {
     const int is_by_paper = rho_node_is_bearings_by_paper(node);
-    const enum rho_status status = rho_tracker_step_frame(
-        &node->tracker, is_by_paper ? NULL : NODE_PASSIVE(node), frame, &node->report);
+    const enum rho_status status = rho_tracker_step_bearings(
+        &node->tracker, is_by_paper ? NULL : NODE_PASSIVE(node), scan, &node->report);
     if (status != RHO_OK) {
-        node->counters.frames_refused = rho_count(node->counters.frames_refused, 1);
+        node->counters.bearings_refused = rho_count(node->counters.bearings_refused, 1);
         return status;
     }
-    node->done = RHO_NODE_FRAME;
-    if (is_by_paper && rho_passive_paper_step(NODE_PASSIVE_PAPER(node), &node->tracker, frame,
+    node->done = RHO_NODE_BEARINGS;
+    if (is_by_paper && rho_passive_paper_step(NODE_PASSIVE_PAPER(node), &node->tracker, scan,
                                               &node->report) != RHO_OK) {
-        rho_node_frames_restart(node); /* the frame's sensors do not fit the batch */
+        /* the sensor is too far from the others, or one too many */
+        node->counters.bearings_refused = rho_count(node->counters.bearings_refused, 1);
     }
     return end_step(node, RHO_OK);
 }
@@ -79,10 +80,10 @@ enum rho_status rho_node_step_scan(struct rho_node *node, const struct rho_scan 
     return status == RHO_OK ? rho_node_chain_scan(node, scan, 0) : status;
 }
 
-enum rho_status rho_node_step_frame(struct rho_node *node, const struct rho_frame *frame)
+enum rho_status rho_node_step_bearings(struct rho_node *node, const struct rho_bearing_scan *scan)
 {
-    const enum rho_status status = begin_step(node, frame);
+    const enum rho_status status = begin_step(node, scan);
     return status != RHO_OK        ? status
-           : RHO_NODE_HAS_BEARINGS ? rho_node_chain_frame(node, frame)
+           : RHO_NODE_HAS_BEARINGS ? rho_node_chain_bearings(node, scan)
                                    : RHO_ERROR_TYPE;
 }

@@ -24,7 +24,7 @@ uint16_t rho_node_num_messages(const struct rho_node *node)
     unsigned num = 0;
     if (rho_node_is_ready(node)) {
         num = num_answers(node);
-        if (node->done == RHO_NODE_SCAN || node->done == RHO_NODE_FRAME) {
+        if (node->done == RHO_NODE_SCAN || node->done == RHO_NODE_BEARINGS) {
             num += rho_publish_num_parts(&node->report) + 1u + num_bodies(node) + num_events(node);
         }
     }
@@ -74,11 +74,11 @@ static enum rho_status publish_events(const struct rho_node *node, uint8_t *buff
 static enum rho_status publish_peaks(const struct rho_node *node, uint8_t *buffer, size_t capacity,
                                      size_t *size)
 {
-    const int is_frame = RHO_NODE_HAS_BEARINGS && node->done == RHO_NODE_FRAME;
+    const int is_bearings = RHO_NODE_HAS_BEARINGS && node->done == RHO_NODE_BEARINGS;
     const struct rho_initiator *initiator =
-        RHO_SEARCHES && !is_frame ? rho_node_windows_newest(node) : NULL;
+        RHO_SEARCHES && !is_bearings ? rho_node_windows_newest(node) : NULL;
     const struct rho_passive *passive =
-        RHO_NODE_HAS_PASSIVE && is_frame && !rho_node_is_bearings_by_paper(node)
+        RHO_NODE_HAS_PASSIVE && is_bearings && !rho_node_is_bearings_by_paper(node)
             ? NODE_PASSIVE(node)
             : NULL;
     return rho_publish_peaks(initiator, passive, node->report.time_us, node->step, buffer, capacity,
@@ -119,7 +119,7 @@ void rho_node_status(struct rho_node *node, struct rho_message_status *status)
     if (!rho_node_is_ready(node) || !status) {
         return;
     }
-    rho_publish_status(&node->assembler, NODE_FRAMES(node), &node->tracker,
+    rho_publish_status(&node->assembler, &node->tracker,
                        RHO_SEARCHES ? rho_node_windows_newest(node) : NULL, status);
     status->scan = node->step;
     status->epoch = node->epoch;

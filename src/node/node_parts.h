@@ -31,20 +31,10 @@
 #define NODE_UNPACKED(node) ((void)(node), (struct rho_plot *)0)
 #define NODE_FATES(node) ((void)(node), (uint8_t *)0)
 #endif
-#if RHO_NODE_HAS_BEARINGS
-#define NODE_FRAMES(node) (&(node)->frames)
-#else
-#define NODE_FRAMES(node) ((void)(node), (struct rho_frames *)0)
-#endif
 #if RHO_NODE_HAS_PASSIVE
 #define NODE_PASSIVE(node) (&(node)->passive)
 #else
 #define NODE_PASSIVE(node) ((void)(node), (struct rho_passive *)0)
-#endif
-#if RHO_NODE_HAS_WAITING
-#define NODE_WAITING(node) ((node)->waiting)
-#else
-#define NODE_WAITING(node) ((void)(node), (struct rho_node_waiting *)0)
 #endif
 #if RHO_PAPERS
 #define NODE_PAPER_STARTS(node) (&(node)->paper_starts)
@@ -71,9 +61,6 @@
 #else
 #define NODE_OPERATOR(node) ((void)(node), (struct rho_node_operator *)0)
 #endif
-
-/* Values of has_closed: no closed frame; one to be stepped; one whose restart was made before. */
-enum { NODE_FRAME_NONE = 0, NODE_FRAME_CLOSED, NODE_FRAME_RESTARTED };
 
 static inline int rho_node_is_ready(const struct rho_node *node)
 {
@@ -103,23 +90,8 @@ static inline int rho_node_is_bearings_by_paper(const struct rho_node *node)
     return RHO_NODE_HAS_PASSIVE_PAPER && (!(RHO_SEARCHES) || node->options.is_bearings_by_paper);
 }
 
-/* node_setup.c: begins anew on another clock (node.h). Frames stay. */
+/* node_setup.c: begins anew on another clock (node.h) */
 void rho_node_restart(struct rho_node *node);
-
-/* Empties frames and their sensors, but keeps the counters; the first frame waits for all. */
-void rho_node_frames_reset(struct rho_node *node);
-
-/* Empties the batches of the searches in bearings. */
-void rho_node_frames_restart(struct rho_node *node);
-
-/* The open frame; NULL where none is. */
-const struct rho_frames_slot *rho_node_frames_open(const struct rho_node *node);
-
-/* Closes the open frame, which is to be stepped then; returns 0 where none was open. */
-int rho_node_frames_close(struct rho_node *node);
-
-/* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
-void rho_node_frames_push(struct rho_node *node, int64_t now_us);
 
 /* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
 int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
@@ -141,7 +113,8 @@ void rho_node_settings_adopt(struct rho_node *node, const struct rho_settings *s
 /* The chain of a step (node.h); is_live: the scan came as messages. */
 enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan *scan,
                                     int is_live);
-enum rho_status rho_node_chain_frame(struct rho_node *node, const struct rho_frame *frame);
+enum rho_status rho_node_chain_bearings(struct rho_node *node,
+                                        const struct rho_bearing_scan *scan);
 
 /* All windows but the first become free, and the first has no sensor. */
 enum rho_status rho_node_windows_init(struct rho_node *node,

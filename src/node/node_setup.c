@@ -48,7 +48,6 @@ void rho_node_config_default(struct rho_node_config *config, const struct rho_se
     rho_settings_apply(settings, &config->tracker, RHO_SEARCHES ? &config->initiator : NULL,
                        RHO_NODE_HAS_BEARINGS ? &config->passive : NULL);
     if (RHO_NODE_HAS_BEARINGS) {
-        rho_frames_config_default(&config->frames);
         config->passive_range_max_m = settings->range_max_m;
     }
     if (RHO_PAPERS) {
@@ -59,13 +58,10 @@ void rho_node_config_default(struct rho_node_config *config, const struct rho_se
 
 static enum rho_status init_bearings(struct rho_node *node, const struct rho_node_config *config)
 {
-    enum rho_status status =
-        rho_frames_init(NODE_FRAMES(node), sizeof *NODE_FRAMES(node), &config->frames);
+    enum rho_status status = RHO_OK;
     node->options.is_bearings_by_paper = config->options.is_bearings_by_paper;
     node->passive_range_max_m = config->passive_range_max_m;
-    node->frame_due_us = INT64_MAX;
-    rho_node_frames_reset(node);
-    if (RHO_NODE_HAS_PASSIVE && status == RHO_OK) {
+    if (RHO_NODE_HAS_PASSIVE) {
         status = rho_passive_init(NODE_PASSIVE(node), sizeof *NODE_PASSIVE(node), &config->passive);
     }
     if (rho_node_is_bearings_by_paper(node) && status == RHO_OK) {
@@ -195,7 +191,14 @@ void rho_node_restart(struct rho_node *node)
         struct rho_paper_starts *starts = NODE_PAPER_STARTS(node);
         (void)!rho_paper_starts_init(starts, sizeof *starts, &starts->config);
     }
-    rho_node_frames_restart(node);
+    if (RHO_NODE_HAS_PASSIVE) {
+        struct rho_passive *passive = NODE_PASSIVE(node);
+        (void)!rho_passive_init(passive, sizeof *passive, &passive->config);
+    }
+    if (rho_node_is_bearings_by_paper(node)) {
+        struct rho_passive_paper *paper = NODE_PASSIVE_PAPER(node);
+        (void)!rho_passive_paper_init(paper, sizeof *paper, &paper->config);
+    }
     node->epoch = node->epoch == INT32_MAX ? 0 : node->epoch + 1;
 }
 

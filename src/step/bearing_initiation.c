@@ -1,87 +1,43 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_initiation: bearings of a frame go into the batch of passive initiation, ghosts among
+ * bearing_initiation: the bearings of a look go into the batch of passive initiation, ghosts among
  * them are marked, and its best set of tracks is started, in place of tracks that it beats.
  */
-#include <string.h>
-
-#include "batch_frame.h"
+#include "phases.h"
 #include "policy.h"
 #include "rhotrack/detail/bearing_crossing.h"
 
-/* 1 where a bearing has crossings with those of other sensors, and none can be a target. */
-static int is_ghost_bearing(const struct step *step, const struct rho_bearing_scan *scan,
-                            float bearing_rad)
+/*
+ * 1 where a bearing has crossings with those of the newest looks of other sensors, and none can be
+ * a target.
+ */
+static int is_ghost_bearing(const struct step *step, float bearing_rad)
 {
+    const struct rho_bearing_scan *scan = step->look.bearings;
+    const struct rho_batch *batch = &step->passive->batch;
     struct rho_crossing_base base;
     struct rho_crossing crossing;
     int has_crossings = 0;
-    for (uint32_t k = 0; k < step->frame->num_scans; k++) {
-        const struct rho_bearing_scan *other = &step->frame->scans[k];
-        if (other == scan ||
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        unsigned k = batch->num_scans;
+        while (k > 0 && !batch->was_seen[k - 1u][s]) {
+            k--;
+        }
+        const struct rho_batch_look *other = &batch->looks[k > 0 ? k - 1u : 0][s];
+        if (k == 0 || batch->sensors[s].sensor_id == scan->sensor_id ||
             rho_crossing_set_base(&base, scan->x_m, scan->y_m, other->x_m, other->y_m) != RHO_OK) {
             continue;
         }
-        for (uint32_t j = 0; j < other->num_bearings && j < RHO_MAX_BEARINGS; j++) {
-            const struct rho_bearing *crossed = &other->bearings[j];
-            if (is_usable_bearing(crossed)) {
-                has_crossings = 1;
-                if (rho_crossing_find(&base, bearing_rad, crossed->bearing_rad,
-                                      step->passive->config.range_max_m,
-                                      &crossing) == RHO_CROSSING_MEETS) {
-                    return 0;
-                }
+        for (unsigned j = 0; j < batch->num_bearings[k - 1u][s]; j++) {
+            has_crossings = 1;
+            if (rho_crossing_find(&base, bearing_rad, batch->bearings[k - 1u][s][j].bearing_rad,
+                                  step->passive->config.range_max_m,
+                                  &crossing) == RHO_CROSSING_MEETS) {
+                return 0;
             }
         }
     }
     return has_crossings;
-}
-
-void rho_step_frame_to_batch(const struct rho_look *look, const struct rho_frame *frame,
-                             struct batch_frame *held)
-{
-    uint8_t *packed = held->fates;
-    uint32_t first = 0;
-    held->frame = *frame;
-    held->frame.scans = held->scans;
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        const uint32_t num = num_bearings_with_fates(look, &frame->scans[i], first);
-        held->scans[i] = frame->scans[i];
-        held->scans[i].num_bearings = num;
-        memcpy(packed, look->fates + (num > 0 ? first : 0), num);
-        packed += num;
-        first = rho_count(first, frame->scans[i].num_bearings);
-    }
-}
-
-void rho_step_batch_to_report(const struct rho_look *look, const struct batch_frame *held,
-                              const struct rho_frame *frame)
-{
-    const uint8_t *packed = held->fates;
-    uint32_t first = 0;
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        const uint32_t num = held->scans[i].num_bearings;
-        memcpy(look->fates + (num > 0 ? first : 0), packed, num);
-        packed += num;
-        first = rho_count(first, frame->scans[i].num_bearings);
-    }
-}
-
-/* A function of its own, for its stack: the batch's frame is needed here alone. */
-static void push_frame(const struct rho_look *look, const struct rho_frame *frame,
-                       const struct frame_owners *owners, struct rho_passive *passive)
-{
-    struct rho_batch_owner packed[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
-    struct batch_frame held;
-    unsigned num = 0;
-    rho_step_frame_to_batch(look, frame, &held);
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        memcpy(packed + num, owners->of[i], held.scans[i].num_bearings * sizeof packed[0]);
-        num += held.scans[i].num_bearings;
-    }
-    /* cannot fail: rho_tracker_step_frame has asked whether the batch accepts the frame */
-    (void)!rho_batch_push(&passive->batch, &held.frame, held.fates, packed);
-    rho_step_batch_to_report(look, &held, frame);
 }
 
 /* Row of the track with this identity; RHO_MAX_TRACKS: none that lives. */
@@ -213,7 +169,7 @@ static int admit_found_track(struct step *step, uint32_t heir_id, const struct r
         rho_track_free_hypotheses(&tracker->tracks[row], &step->look.model);
     }
     if (rho_track_start_estimate(&track, track_id, estimate, step->look.time_us, sensor_id,
-                                 (uint16_t)rho_count_bits(found->scans), &step->look.model,
+                                 found->hits, &step->look.model,
                                  score_mnat) != RHO_OK) {
         if (row < RHO_MAX_TRACKS) {
             rho_step_end_track(step, row);
@@ -265,23 +221,16 @@ static void start_found_track(struct step *step, struct owners_list *list,
 static void mark_ghosts(const struct step *step)
 {
     const struct rho_look *look = &step->look;
-    uint32_t first = 0;
-    for (uint32_t k = 0; k < step->frame->num_scans; k++) {
-        const struct rho_bearing_scan *scan = &step->frame->scans[k];
-        const uint32_t num = num_bearings_with_fates(look, scan, first);
-        for (uint32_t i = 0; i < num; i++) {
-            uint8_t *fate = &look->fates[first + i];
-            if (*fate == RHO_FATE_HELD &&
-                is_ghost_bearing(step, scan, scan->bearings[i].bearing_rad)) {
-                *fate = RHO_FATE_GHOST;
-            }
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD &&
+            is_ghost_bearing(step, look->bearings->bearings[i].bearing_rad)) {
+            look->fates[i] = RHO_FATE_GHOST;
         }
-        first = rho_count(first, scan->num_bearings);
     }
 }
 
 /* Searches once a row, with all that is followed challenged. */
-void rho_step_initiate_bearings(struct step *step, const struct frame_owners *owners)
+void rho_step_initiate_bearings(struct step *step, const struct rho_batch_owner *owners)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     struct rho_passive *passive = step->passive;
@@ -290,7 +239,11 @@ void rho_step_initiate_bearings(struct step *step, const struct frame_owners *ow
         rho_step_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
         return;
     }
-    push_frame(&step->look, step->frame, owners, passive);
+    struct rho_bearing_scan held = *step->look.bearings; /* those with fates */
+    held.num_bearings = step->look.num_gated;
+    const struct rho_frame frame = {.time_us = held.time_us, .scans = &held, .num_scans = 1};
+    /* cannot fail: rho_tracker_step_bearings has asked whether the batch accepts the look */
+    (void)!rho_batch_push(&passive->batch, &frame, step->look.fates, owners);
     mark_ghosts(step);
     counters->plots_clutter = rho_count(counters->plots_clutter, passive->batch.num_left);
     passive->num_tracks = 0;

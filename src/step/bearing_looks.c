@@ -1,17 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* bearing_looks: one sensor's bearings of a frame as a look: opened, claimed and updated. */
+/* bearing_looks: the look of a scan of bearings: opened, claimed, and tracks updated by it. */
 #include <string.h>
 
-#include "batch_frame.h"
+#include "phases.h"
 #include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-
-void rho_step_open_frame(struct rho_look *look)
-{
-    rho_pd_open(look, 0); /* default pd: no sensor's look is open yet */
-    memset(look->fates, RHO_FATE_NO_ROOM, look->num_gated);
-}
+#include "rhotrack/detail/measurement.h"
 
 /* A sensor's description, at the position that its scan of bearings states. */
 static struct rho_sensor sensor_of_scan(const struct rho_tracker *tracker,
@@ -32,31 +27,18 @@ static struct rho_sensor sensor_of_scan(const struct rho_tracker *tracker,
     return sensor;
 }
 
-static int does_frame_cover(const struct step *step, const struct rho_track *track)
-{
-    for (uint32_t i = 0; i < step->frame->num_scans; i++) {
-        const struct rho_bearing_scan *scan = &step->frame->scans[i];
-        const struct rho_sensor sensor = sensor_of_scan(step->tracker, step->passive, scan);
-        if (rho_measurement_covers(&sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                   track->kalman.state[0], track->kalman.state[1])) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* Returns the row of the sensor; NULL: there is no room for it. */
-static struct rho_tracker_sensor *
-open_look(struct rho_tracker *tracker, const struct rho_passive *passive, struct rho_look *look,
-          const struct rho_bearing_scan *scan, uint32_t first, struct rho_sensor *sensor)
+static struct rho_tracker_sensor *open_look(struct rho_tracker *tracker,
+                                            const struct rho_passive *passive,
+                                            struct rho_look *look, struct rho_sensor *sensor)
 {
+    const struct rho_bearing_scan *scan = look->bearings;
     struct rho_tracker_sensor *row = rho_sensors_hear(tracker, scan->sensor_id);
     *sensor = sensor_of_scan(tracker, passive, scan);
     if (row) {
         rho_pace_update(&row->pace, sensor, look->time_us, scan->sector_from_rad,
                         scan->sector_to_rad);
     }
-    look->bearings = scan;
     look->sensor = sensor;
     /* false bearings: the mean number of unclaimed ones, over the sector or field of view */
     const float unclaimed = row ? row->unclaimed_bearings : 0.0f;
@@ -66,8 +48,8 @@ open_look(struct rho_tracker *tracker, const struct rho_passive *passive, struct
         view_rad = passive ? passive->config.field_of_view_rad : RHO_TWO_PI;
     }
     look->log_false_bearings = rho_log((unclaimed > 1.0f ? unclaimed : 1.0f) / view_rad);
-    look->num_gated = num_bearings_with_fates(look, scan, first);
-    look->fates += first < RHO_MAX_PLOTS ? first : 0;
+    memset(look->fates, RHO_FATE_NO_ROOM, look->num_gated);
+    look->num_gated = look->num_gated < RHO_MAX_BEARINGS ? look->num_gated : RHO_MAX_BEARINGS;
     rho_pd_open(look, row);
     rho_bearing_errors_open(look, row);
     return row;
@@ -77,7 +59,9 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
 {
     for (uint32_t i = 0; i < look->num_gated; i++) {
         const struct rho_bearing *bearing = &look->bearings->bearings[i];
-        int is_valid = is_usable_bearing(bearing);
+        int is_valid = rho_bearing_is_valid(bearing) &&
+                       bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
+                       bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
         if (is_valid && !rho_coverage_holds_bearing(look->sensor, bearing->bearing_rad,
                                                     BEARING_SIGMAS * bearing->sigma_rad)) {
             is_valid = 0;
@@ -252,9 +236,7 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         } else if (found.is_claimed) {
             look->fates[found.row] = RHO_FATE_CLAIMED;
-            if (owners) {
-                owners[found.row] = (struct rho_batch_owner){track->track_id, found.density_nat};
-            }
+            owners[found.row] = (struct rho_batch_owner){track->track_id, found.density_nat};
         }
     }
     for (uint32_t i = 0; i < look->num_gated; i++) {
@@ -263,54 +245,24 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
     if (own) {
         rho_clutter_smooth_mean(&own->unclaimed_bearings, rho_larger(unclaimed, 0.0f));
     }
-    rho_life_weigh(tracker, look);
 }
 
-/*
- * Claims and updates look by look: each sensor meets the gates that those before it left.
- * *owners: gets the tracks of the bearings, where it has room for them.
- */
-void rho_step_take_frame(struct step *step, struct frame_owners *owners)
+void rho_step_take_bearings(struct step *step, struct rho_sensor *sensor,
+                            struct rho_batch_owner *owners)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_look *look = &step->look;
-    const uint32_t num_gated = look->num_gated;
-    uint8_t *fates = look->fates;
-    struct rho_sensor sensor;
-    uint32_t first = 0;
     rho_life_pass(tracker, look);
-    for (uint32_t i = 0; i < step->frame->num_scans; i++) {
-        const struct rho_bearing_scan *scan = &step->frame->scans[i];
-        struct rho_tracker_sensor *own =
-            open_look(tracker, step->passive, look, scan, first, &sensor);
-        validate_bearings(tracker, look);
-        /* both counts are within the capacities: nothing to refuse */
-        (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
-        for (unsigned row = 0; row < tracker->num_tracks; row++) {
-            if (tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row)) {
-                offer_bearings(tracker, look, row);
-            }
-        }
-        rho_score_solve(tracker);
-        learn_pd(tracker, look, own);
-        update_by_bearings(tracker, look, own, i < RHO_MAX_PASSIVE_SENSORS ? owners->of[i] : 0);
-        first = rho_count(first, scan->num_bearings);
-        look->num_gated = num_gated;
-        look->fates = fates;
-    }
-    /* the look is again the whole frame, of no sensor */
-    look->bearings = 0;
-    look->sensor = 0;
-    rho_pd_open(look, 0);
-    /*
-     * A frame without a bearing of a track is one miss, however many sensors looked. The score is
-     * left alone: the update has lowered it for each sensor.
-     */
+    struct rho_tracker_sensor *own = open_look(tracker, step->passive, look, sensor);
+    validate_bearings(tracker, look);
+    /* both counts are within the capacities: nothing to refuse */
+    (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && !rho_track_is_frozen(track) && track->plot < 0 &&
-            does_frame_cover(step, track)) {
-            rho_track_count_miss(track, 0);
+        if (tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row)) {
+            offer_bearings(tracker, look, row);
         }
     }
+    rho_score_solve(tracker);
+    learn_pd(tracker, look, own);
+    update_by_bearings(tracker, look, own, owners);
 }

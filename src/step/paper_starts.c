@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "batch_frame.h"
+#include "phases.h"
 #include "policy.h"
 
 #define STARTS_MAGIC 0x50535431u
@@ -223,34 +223,31 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
 }
 
 enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct rho_tracker *tracker,
-                                       const struct rho_frame *frame, struct rho_report *report)
+                                       const struct rho_bearing_scan *scan,
+                                       struct rho_report *report)
 {
-    if (!paper || !tracker || !frame || !report) {
+    if (!paper || !tracker || !scan || !report) {
         return RHO_ERROR_NULL;
     }
     if (!rho_tracker_is_ready(tracker) || !tracker->has_time) {
         return RHO_ERROR_STATE;
     }
-    if (report->time_us != tracker->time_us || frame->num_scans > RHO_MAX_PASSIVE_SENSORS) {
+    if (report->time_us != tracker->time_us) {
         return RHO_OK;
     }
-    const struct rho_look look = {.fates = report->fates, .num_gated = num_with_fates(report)};
-    struct batch_frame held;
-    uint32_t num = 0;
-    rho_step_frame_to_batch(&look, frame, &held);
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        num += held.scans[i].num_bearings;
-    }
-    const uint32_t num_held = hold_unclaimed(held.fates, num);
-    for (uint32_t i = 0; num_held == 0 && i < frame->num_scans; i++) {
-        held.scans[i].num_bearings = 0; /* tracks claim all, but the sensors have looked */
-    }
-    enum rho_status status = rho_passive_paper_push(paper, &held.frame, held.fates);
+    const uint32_t most = num_with_fates(report);
+    struct rho_bearing_scan held = *scan;
+    held.num_bearings = held.num_bearings < most ? held.num_bearings : most;
+    held.num_bearings =
+        held.num_bearings < RHO_MAX_BEARINGS ? held.num_bearings : RHO_MAX_BEARINGS;
+    const uint32_t num = held.num_bearings, num_held = hold_unclaimed(report->fates, num);
+    held.num_bearings = num_held > 0 ? num : 0; /* tracks claim all, but the sensor has looked */
+    const struct rho_frame frame = {.time_us = scan->time_us, .scans = &held, .num_scans = 1};
+    enum rho_status status = rho_passive_paper_push(paper, &frame, report->fates);
     if (status != RHO_OK) {
         return status;
     }
-    rho_step_batch_to_report(&look, &held, frame);
-    recount_held(tracker, report, held.fates, num, num_held);
+    recount_held(tracker, report, report->fates, num, num_held);
     if (paper->batch.num_scans < paper->batch.scans_max || !paper->batch.is_due) {
         return RHO_OK;
     }

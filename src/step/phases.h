@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * phases: the phases of a step, in their order, each a file; step.c calls them for a scan of plots,
- * frame_step.c for a frame of bearings. No phase calls an earlier one. Private to src/step.
+ * bearing_step.c for one of bearings. No phase calls an earlier one. Private to src/step.
  */
 #ifndef RHOTRACK_PHASES_H
 #define RHOTRACK_PHASES_H
@@ -35,11 +35,12 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
 /* update.c: tracks take the plots that they were assigned */
 void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 
-/* bearing_looks.c: opens a frame of bearings, of which no sensor's look is open yet */
-void rho_step_open_frame(struct rho_look *look);
-/* Claims and updates by each sensor's bearings, and counts the misses of the frame. */
-struct frame_owners;
-void rho_step_take_frame(struct step *step, struct frame_owners *owners);
+/*
+ * bearing_looks.c: opens the look of a scan of bearings; claims and updates by it. *sensor: gets its
+ * sensor; owners: RHO_MAX_BEARINGS, get the tracks of the bearings that are claimed.
+ */
+void rho_step_take_bearings(struct step *step, struct rho_sensor *sensor,
+                            struct rho_batch_owner *owners);
 
 /* age.c: counts misses, confirms and ends tracks */
 void rho_step_age(struct step *step);
@@ -47,7 +48,7 @@ void rho_step_age(struct step *step);
 /* initiate.c: tracks start from unclaimed plots; the clutter map and counts are updated */
 void rho_step_initiate(struct step *step);
 /* bearing_initiation.c: tracks start from bearings, and give way to better ones */
-void rho_step_initiate_bearings(struct step *step, const struct frame_owners *owners);
+void rho_step_initiate_bearings(struct step *step, const struct rho_batch_owner *owners);
 
 /* settle.c: brings the tracks to the time that the report has */
 void rho_step_settle(struct step *step);

@@ -23,7 +23,7 @@ void rho_step_predict(struct step *step)
             }
         }
     }
-    if (step->frame) {
+    if (look->bearings) {
         rho_step_merge_estimates(step); /* coverage goes by one estimate of each track */
     }
 }

@@ -13,7 +13,7 @@ void rho_step_merge_estimates(const struct step *step)
     const struct rho_look *look = &step->look;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         struct rho_track *track = &step->tracker->tracks[i];
-        if ((step->frame || track->time_us == look->time_us) && !rho_track_is_frozen(track)) {
+        if ((look->bearings || track->time_us == look->time_us) && !rho_track_is_frozen(track)) {
             rho_track_merge_estimates(track, look->time_us, &look->model);
         }
     }

@@ -35,11 +35,11 @@ struct rho_work {
     int is_partial;                  /* the budget has left out something */
 };
 
-/* A scan of plots, a part of a large one, or one scan of a frame; const for all that ask it. */
+/* A scan of plots, a part of a large one, or a scan of bearings; const for all that ask it. */
 struct rho_look {
     const struct rho_tracker *tracker;       /* whose tracks it looks at */
     const struct rho_scan *scan;             /* its plots; NULL: bearings */
-    const struct rho_bearing_scan *bearings; /* its bearings; NULL: plots, or no look is open */
+    const struct rho_bearing_scan *bearings; /* its bearings; NULL: plots */
     uint8_t *fates;                          /* of its plots or bearings, those of the report */
     /* the row of its sensor; NULL: the table is full of described sensors, or bearings */
     struct rho_tracker_sensor *row;

@@ -29,7 +29,7 @@ struct detection rho_pd_detection(const struct rho_look *look, const struct rho_
 #define RHO_LOOK_LIMIT_NAT 30.0f
 
 /* sight.c */
-/* True where the look may see a track at all; a frame: every track that is not frozen. */
+/* True where the look may see a track at all; bearings: every track that is not frozen. */
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
 int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track);

@@ -9,9 +9,8 @@
 struct step {
     struct rho_tracker *tracker;
     struct rho_report *report;
-    struct rho_passive *passive;   /* starts tracks from bearings; NULL: none, or plots */
-    const struct rho_frame *frame; /* the frame of bearings; NULL: plots */
-    struct rho_look look;          /* the look that is claimed now */
+    struct rho_passive *passive;  /* starts tracks from bearings; NULL: none, or plots */
+    struct rho_look look;         /* the look that is claimed now */
     const struct rho_scan *whole;  /* with bodies: the scan whose plots were grouped */
     struct rho_scan *grouped;      /* with bodies: room for a scan of a plot for each group */
     struct rho_work work;

@@ -246,9 +246,6 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             track->visible = rho_smaller(track->visible, 1.0f); /* despite rounding */
             track->hidden *= spared + (1.0f - spared) / sum;
             track->look_nat = 0.0f;
-            if (!look->scan) { /* of the next look of the frame */
-                track->seen_share = seeing_share(look, track);
-            }
         }
     }
 }

@@ -191,7 +191,7 @@ static void add_tracker_counters(const struct rho_tracker *tracker,
     status->tracks_coasting = rho_clamp_to_int16(count[RHO_TRACK_COASTING]);
 }
 
-void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,
+void rho_publish_status(const struct rho_scan_assembler *assembler,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status)
 {
@@ -201,16 +201,6 @@ void rho_publish_status(const struct rho_scan_assembler *assembler, const struct
     *status = (struct rho_message_status){.utime = 0};
     if (assembler) {
         set_scan_counters(&assembler->counters, status);
-    }
-    if (frames) {
-        const struct rho_frames_counters *counters = &frames->counters;
-        status->frames_incomplete = rho_clamp_to_int32(counters->frames_incomplete);
-        status->scans_late = rho_clamp_sum_to_int32(status->scans_late, counters->scans_late);
-        status->clock_jumps =
-            rho_clamp_sum_to_int32(status->clock_jumps, counters->scans_off_clock);
-        status->plots_in = rho_clamp_sum_to_int32(status->plots_in, counters->bearings_no_room);
-        status->inputs_no_room =
-            rho_clamp_sum_to_int32(status->inputs_no_room, counters->bearings_no_room);
     }
     if (tracker) {
         add_tracker_counters(tracker, status);

@@ -107,8 +107,9 @@ static void step_bearings(int k)
                 .sigma_elevation_rad = s == 0 ? 0.005f : 0.0f};
         }
     }
-    struct rho_frame frame = {.time_us = looks[0].time_us, .num_scans = 3, .scans = looks};
-    (void)!rho_tracker_step_frame(&chain.tracker, &chain.passive, &frame, &report);
+    for (int s = 0; s < 3; s++) {
+        (void)!rho_tracker_step_bearings(&chain.tracker, &chain.passive, &looks[s], &report);
+    }
 }
 
 static void step_scene(int scene, int k)

@@ -1225,25 +1225,27 @@ static struct rho_frame make_frame(struct script *script, unsigned how, struct b
     return frame;
 }
 
+/* Steps the looks of a frame, one after the other. */
 static void step_frame(struct script *script)
 {
     static struct bearings seen;
     const unsigned how = read_byte(script);
-    struct rho_frame frame = make_frame(script, how, &seen);
-    uint32_t num_bearings = 0;
-    enum rho_status status;
+    const struct rho_frame frame = make_frame(script, how, &seen);
 
     touched = TRACKER | (how & 8 ? 0u : PASSIVE(0));
-    status = rho_tracker_step_frame(&chain.tracker, how & 8 ? NULL : &chain.passives[0], &frame,
-                                    &chain.report);
-    if (status == RHO_OK) {
-        for (uint32_t s = 0; s < frame.num_scans; s++) {
-            num_bearings += frame.scans[s].num_bearings;
+    for (uint32_t s = 0; frame.scans && s < frame.num_scans; s++) {
+        const struct rho_bearing_scan *look = &frame.scans[s];
+        enum rho_status status;
+
+        copy_objects_before();
+        status = rho_tracker_step_bearings(&chain.tracker, how & 8 ? NULL : &chain.passives[0],
+                                           look, &chain.report);
+        if (status == RHO_OK) {
+            check_step(look->num_bearings, look->time_us, NULL);
+            world.time_us = chain.tracker.time_us;
+        } else {
+            check_unchanged(status);
         }
-        check_step(num_bearings, frame.time_us, NULL);
-        world.time_us = chain.tracker.time_us;
-    } else {
-        check_unchanged(status);
     }
 }
 
@@ -1637,8 +1639,8 @@ static void make_refused_calls(struct script *script)
     static struct rho_plot plot;
     const struct rho_scan scan = {.time_us = world.time_us, .num_plots = 1, .plots = &plot};
     const struct rho_scan no_plots = {.time_us = world.time_us, .num_plots = 1};
-    const struct rho_frame frame = {.time_us = world.time_us};
-    const struct rho_frame no_scans = {.time_us = world.time_us, .num_scans = 1};
+    const struct rho_bearing_scan look = {.time_us = world.time_us};
+    const struct rho_bearing_scan no_bearings = {.time_us = world.time_us, .num_bearings = 1};
     struct rho_tracker *tracker = &chain.tracker;
     struct rho_initiator *initiator = &chain.initiators[0];
     struct rho_report *report = &chain.report;
@@ -1669,14 +1671,15 @@ static void make_refused_calls(struct script *script)
         status = rho_tracker_step(&empty, initiator, &scan, report);
         break;
     case 6:
-        status = rho_tracker_step_frame(tracker, &empty_passive,
-                                        &(struct rho_frame){.time_us = RHO_LIMIT_TIME_US}, report);
+        status = rho_tracker_step_bearings(
+            tracker, &empty_passive, &(struct rho_bearing_scan){.time_us = RHO_LIMIT_TIME_US},
+            report);
         break;
     case 7:
-        status = rho_tracker_step_frame(tracker, NULL, &no_scans, report);
+        status = rho_tracker_step_bearings(tracker, NULL, &no_bearings, report);
         break;
     case 8:
-        status = rho_tracker_step_frame(tracker, NULL, &frame, NULL);
+        status = rho_tracker_step_bearings(tracker, NULL, &look, NULL);
         break;
     case 9:
         status = rho_tracker_set_sensor(tracker, NULL);

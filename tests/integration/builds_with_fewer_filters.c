@@ -92,7 +92,7 @@ static void print_status_of_default_config(void)
 static void print_status_of_steps_with_initiators(void)
 {
     static const struct rho_scan scan = {.time_us = 0};
-    static const struct rho_frame frame = {.time_us = 0};
+    static const struct rho_bearing_scan look = {.time_us = 0};
     struct rho_initiator_config initiation;
     struct rho_passive_config config;
     rho_initiator_config_default(&initiation);
@@ -103,7 +103,7 @@ static void print_status_of_steps_with_initiators(void)
            failed ? "unusable"
                   : rho_status_name(rho_tracker_step(&tracker, &initiator, &scan, &report)),
            failed ? "unusable"
-                  : rho_status_name(rho_tracker_step_frame(&tracker, &passive, &frame, &report)));
+                  : rho_status_name(rho_tracker_step_bearings(&tracker, &passive, &look, &report)));
 }
 
 int main(void)

@@ -112,7 +112,7 @@ def check_counters():
     written = "".join((ROOT / "tools/rhotrack/live" / name).read_text()
                       for name in ("prometheus_metrics.c", "node_loss_counts.c"))
     for header, struct in (("scan_assembler", "rho_scan_assembler_counters"),
-                           ("frames", "rho_frames_counters"), ("node", "rho_node_counters"),
+                           ("node", "rho_node_counters"),
                            ("tracker", "rho_tracker_counters"), ("tracker", "rho_tracker_work")):
         text = (ROOT / f"include/rhotrack/{header}.h").read_text()
         body = re.search(r"struct " + struct + r" \{(.*?)\n\};", text, re.S)[1]

@@ -101,7 +101,7 @@ static void step_all_due(int64_t now_us)
     while (done != RHO_NODE_NOTHING) {
         int64_t start_us = hooks.clock_us(hooks.context);
         done = rho_node_next(&node, now_us);
-        if (done == RHO_NODE_SCAN || done == RHO_NODE_FRAME) {
+        if (done == RHO_NODE_SCAN || done == RHO_NODE_BEARINGS) {
             rho_node_count_time(&node, hooks.clock_us(hooks.context) - start_us);
             if (hooks.stepped) {
                 hooks.stepped(hooks.context, &node.report);

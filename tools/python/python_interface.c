@@ -1043,7 +1043,7 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
         const struct program_scan *scan = &scans->list[i];
 
         if (scan->is_frame) {
-            pipeline_step_frame(made->pipeline, &scan->frame);
+            pipeline_step_frame(made->pipeline, &scan->frame, NULL, NULL);
         } else {
             if (scan->has_sensor) {
                 set_sensor_of_tracker(made, &scan->sensor);

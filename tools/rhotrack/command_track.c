@@ -64,6 +64,15 @@ static void check_and_set_passive_sensors(struct tracking *tracking,
     }
 }
 
+static void write_zone_events(void *context)
+{
+    struct tracking *tracking = context;
+
+    if (pipeline_zones(&tracking->pipeline)) {
+        zone_events_output_write(&tracking->zones, pipeline_zones(&tracking->pipeline));
+    }
+}
+
 static void step_and_time_input(struct tracking *tracking, const struct input *input)
 {
     int64_t start_us, took_us;
@@ -75,8 +84,9 @@ static void step_and_time_input(struct tracking *tracking, const struct input *i
     if (input->scan) {
         no_tracks_reason_add_scan(&tracking->seen, input->scan);
         pipeline_step(&tracking->pipeline, input->scan);
+        write_zone_events(tracking);
     } else {
-        pipeline_step_frame(&tracking->pipeline, input->frame);
+        pipeline_step_frame(&tracking->pipeline, input->frame, write_zone_events, tracking);
     }
     took_us = monotonic_clock_us() - start_us;
     tracking->sum_us += took_us;
@@ -102,9 +112,6 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
                                  struct tracks_output *tracks)
 {
     step_and_time_input(tracking, input);
-    if (pipeline_zones(&tracking->pipeline)) {
-        zone_events_output_write(&tracking->zones, pipeline_zones(&tracking->pipeline));
-    }
     if (tracks) {
         tracks_output_write_report(tracks, &tracking->pipeline.node->report);
     }

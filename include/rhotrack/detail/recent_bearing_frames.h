@@ -4,9 +4,9 @@
  * passive initiators search for tracks.
  *
  * Each look has its own time and place: sensors may move, stand together, and look at times of
- * their own. A sensor is known from its first look on, and keeps its index. A look goes into the
- * newest row while that lacks its sensor; in a row that waits for slower sensors it takes the place
- * of its sensor's older look. Embedded in the initiators; usable alone.
+ * their own. A sensor keeps its index while it is heard; once it was silent for
+ * RHO_LIMIT_OFFSET_US, another one may have it. A look goes into the newest row while that lacks its sensor; in a row that waits for
+ * slower sensors it takes the place of its sensor's older look. Embedded in the initiators; usable alone.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -25,8 +25,10 @@ RHO_BEGIN_C
 #define RHO_BATCH_SCANS_MIN 3u
 
 struct rho_batch_sensor {
+    int64_t looked_us; /* time of the frame with its newest look */
+    float x_m, y_m;    /* place at that look */
     int32_t sensor_id;
-    float x_m, y_m; /* place at its newest look */
+    uint32_t reserved; /* padding: 0 */
 };
 
 /* When and where a sensor looked. */
@@ -99,8 +101,8 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  *   fates  one for each bearing, in the order of the frame's scans; bearings with HELD are stored,
  *          or get INVALID (rho_bearing_is_valid) or NO_ROOM (beyond RHO_MAX_BEARINGS)
  *   owners NULL, or the tracks of the bearings in the same order: those with CLAIMED are stored too
- * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than
- * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor farther than apart_max_m
+ * Errors: NULL, STATE (older than the newest, or as old, of a sensor that is in it), CAPACITY (more
+ * than RHO_MAX_PASSIVE_SENSORS that are heard), VALUE (a sensor twice in the frame, a sensor farther than apart_max_m
  * from another, or whose position is not a coordinate, a sector beyond one turn either way, a scan
  * more than RHO_LIMIT_OFFSET_US from its frame); nothing is changed. Cost: the bearings, and moving
  * the batch by a row. Stack: 190 bytes.

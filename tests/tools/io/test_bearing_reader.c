@@ -17,7 +17,6 @@
 
 #include "base/random.h"
 #include "io/scans/bearing_reader.h"
-#include "rhotrack/frames.h"
 
 #define HEADER "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n"
 #define MAX_FILES 2
@@ -420,101 +419,6 @@ static void files_of_bearings_are_recognised_by_their_header(void **state)
     close_and_delete_files(&both);
 }
 
-#define LOOKS 300
-
-/* Scans of three sensors every 0.1 s, up to 90 ms late, no two at one time; a few are missing. */
-static struct given given_file_of_random_scans(void)
-{
-    static char text[LOOKS * 40];
-    struct random random = random_start(1, 5, 0);
-    int length = snprintf(text, sizeof text, HEADER);
-
-    for (int round = 0; round < LOOKS / 3; round++) {
-        unsigned late_ms[3];
-
-        for (int i = 0; i < 3; i++) {
-            late_ms[i] = (unsigned)(random_below(&random, 30) * 3) + (unsigned)i;
-        }
-        for (unsigned ms = 0; ms < 100; ms++) {
-            for (int i = 0; i < 3; i++) {
-                if (late_ms[i] == ms && random_below(&random, 8) > 0) {
-                    length += snprintf(text + length, sizeof text - (size_t)length,
-                                       "%d.%u%02u,%d,%d,0,0.5\n", round / 10, (unsigned)round % 10,
-                                       ms, i + 1, 1000 * i);
-                }
-            }
-        }
-    }
-    return open_reader_of_text(text);
-}
-
-static int compare_bearing_scan_times(const void *a, const void *b)
-{
-    const struct rho_bearing_scan *first = a, *second = b;
-
-    return (first->time_us > second->time_us) - (first->time_us < second->time_us);
-}
-
-/* The frame that was just closed equals the reader's next one. */
-static void assert_closed_frame_equals(const struct rho_frames *frames,
-                                       const struct rho_frame *expected)
-{
-    struct rho_frame_view view;
-
-    assert_int_equal(rho_frames_closed(frames, &view), 1);
-    assert_int_equal(view.frame.time_us, expected->time_us);
-    assert_int_equal(view.frame.num_scans, expected->num_scans);
-    for (uint32_t i = 0; i < expected->num_scans; i++) {
-        assert_int_equal(view.frame.scans[i].sensor_id, expected->scans[i].sensor_id);
-        assert_int_equal(view.frame.scans[i].time_us, expected->scans[i].time_us);
-    }
-}
-
-static void live_frames_equal_those_of_the_reader(void **state)
-{
-    static const struct rho_bearing bearing = {.bearing_rad = 0.5f, .sigma_rad = 0.001f};
-    static struct rho_bearing_scan in_frames[LOOKS],
-        scans[LOOKS]; /* the reader's scans are freed with its frame */
-    static struct rho_frame expected[LOOKS];
-    static struct rho_frames frames;
-    struct given given = given_file_of_random_scans();
-    struct rho_frames_config config;
-    struct rho_frame_view view;
-    const struct rho_frame *frame;
-    size_t num_scans = 0, num_frames = 0, closed = 0;
-    (void)state;
-
-    while ((frame = bearing_reader_next(given.reader))) {
-        expected[num_frames] = *frame;
-        expected[num_frames++].scans = in_frames + num_scans;
-        memcpy(in_frames + num_scans, frame->scans, frame->num_scans * sizeof *scans);
-        num_scans += frame->num_scans;
-    }
-    memcpy(scans, in_frames, num_scans * sizeof *scans);
-    for (size_t i = 0; i < num_scans; i++) {
-        assert_int_equal(scans[i].num_bearings, 1);
-        scans[i].bearings = &bearing;
-    }
-    qsort(scans, num_scans, sizeof *scans, compare_bearing_scan_times);
-    rho_frames_config_default(&config);
-    config.sensors_min = 3;
-    config.silent_frames = 255;
-    assert_int_equal(rho_frames_init(&frames, sizeof frames, &config), RHO_OK);
-    for (size_t i = 0; i < num_scans; i++) {
-        assert_int_equal(rho_frames_push(&frames, &scans[i]), RHO_OK);
-        if (rho_frames_closed(&frames, &view)) {
-            assert_closed_frame_equals(&frames, &expected[closed++]);
-        }
-    }
-    assert_int_equal(rho_frames_close(&frames), RHO_OK);
-    if (rho_frames_closed(&frames, &view)) {
-        assert_closed_frame_equals(&frames, &expected[closed++]);
-    }
-    assert_int_equal(closed, num_frames);
-    assert_true(num_frames > 110 && frames.counters.frames_incomplete > 20);
-    close_and_delete_files(&given);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -537,7 +441,6 @@ int main(void)
         cmocka_unit_test(sensors_may_move_and_stand_together),
         cmocka_unit_test(bad_rows_are_skipped_and_counted),
         cmocka_unit_test(files_of_bearings_are_recognised_by_their_header),
-        cmocka_unit_test(live_frames_equal_those_of_the_reader),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

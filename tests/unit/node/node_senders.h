@@ -80,7 +80,7 @@ static inline void run_until(int64_t until_us)
         size_t length = strlen(done);
 
         assert_true(length + 1 < sizeof done);
-        done[length] = "-SFRA"[due];
+        done[length] = "-SBRA"[due];
         done[length + 1] = '\0';
         keep_wanted_messages();
     }

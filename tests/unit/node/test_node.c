@@ -13,9 +13,6 @@
 #include "node_senders.h"
 #include "rhotrack/operator.h"
 
-/* Waiting scans that the build has room for. */
-#define WAITING (RHO_NODE_HAS_WAITING ? RHO_MAX_WAITING_SCANS : 0)
-
 /*
  * ---- start ------------------------------------------------------------------------------------
  */
@@ -58,7 +55,7 @@ static void wrong_calls_are_refused(void **state)
     start_default_node();
     assert_null(rho_node_channel(&node, 0));
     assert_int_equal(rho_node_step_scan(&node, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_node_step_frame(NULL, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_step_bearings(NULL, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_node_add_zone(&node, &zone),
                      RHO_MAX_ZONES > 0 ? RHO_ERROR_VALUE : RHO_ERROR_CAPACITY);
     assert_int_equal(rho_node_take(&node, "ELSE", (const uint8_t *)"", 0, 0), RHO_ERROR_TYPE);
@@ -106,14 +103,12 @@ static void configurations_that_no_part_takes_are_refused(void **state)
     assert_int_equal(rho_node_configure(&node, &config), RHO_ERROR_CONFIG);
 }
 
-/* Frames that were taken before the passive search was refused do not stay. */
 static void a_node_with_refused_bearings_is_not_used(void **state)
 {
     struct rho_node_config config = default_config();
     const struct rho_scan scan = {.time_us = 0};
 
     (void)state;
-    config.frames.tolerance_us /= 2;
     config.passive.pd = -1.0f;
     start_default_node();
     assert_int_equal(rho_node_configure_bearings(&node, &config), RHO_ERROR_CONFIG);
@@ -273,8 +268,8 @@ static void scans_without_messages_take_the_same_chain(void **state)
     assert_int_equal(rho_node_num_messages(&node), 0);
     scan.time_us = 50 * SECOND_US;
     assert_int_equal(rho_node_step_scan(&node, &scan), RHO_OK);
-    const struct rho_frame frame = {.time_us = 60 * SECOND_US};
-    assert_int_equal(rho_node_step_frame(&node, &frame), RHO_OK);
+    const struct rho_bearing_scan look = {.time_us = 60 * SECOND_US};
+    assert_int_equal(rho_node_step_bearings(&node, &look), RHO_OK);
     assert_int_equal(rho_node_num_messages(&node), 2);
     assert_int_equal(rho_node_next(&node, 0), RHO_NODE_NOTHING);
     assert_int_equal(rho_node_num_messages(&node), 0);
@@ -535,62 +530,50 @@ static void zones_count_on_over_a_restart(void **state)
  * ---- bearings ---------------------------------------------------------------------------------
  */
 
-static void frames_close_at_the_next_frame_or_by_timeout(void **state)
+/* Sensors of directions and of bearings share rows; noise that is not stated is the setting. */
+static void directions_are_stepped_beside_bearings(void **state)
 {
     (void)state;
     start_default_node();
     node.assembler.config.gives_other = 1;
-    for (int32_t k = 0; k < 2; k++, now_us += SECOND_US) {
-        send_bearing(1, 0.0f, k, now_us);
-        send_bearing(2, 20000.0f, k, now_us);
-    }
-    run_until(now_us - SECOND_US + 2 * node.assembler.config.hold_us);
-    done[0] = '\0';
-    send_bearing(1, 0.0f, 2, now_us);
-    run_until(now_us + node.assembler.config.hold_us);
-    assert_string_equal(done, "");
-    assert_true(rho_node_due_us(&node) > now_us && rho_node_due_us(&node) < now_us + SECOND_US);
-    run_until(rho_node_due_us(&node));
-    assert_string_equal(done, "F");
-    assert_int_equal(node.tracker.num_sensors, 2);
-}
-
-/* Sensors of directions and of bearings share frames; noise that is not stated is the setting. */
-static void frames_hold_directions_beside_bearings(void **state)
-{
-    const struct rho_frames_slot *slot;
-
-    (void)state;
-    start_default_node();
-    for (int32_t k = 0; k < 2; k++, now_us += SECOND_US) {
+    for (int32_t k = 0; k < 3; k++, now_us += SECOND_US) {
         send_bearing(1, 0.0f, k, now_us);
         send_direction(2, 20000.0f, k, now_us);
     }
-    slot = &node.frames.slots[node.frames.open ^ 1u];
-    assert_int_equal(slot->num_scans, 2);
-    assert_true(slot->scans[0].z_m == 0.0f && slot->scans[1].z_m == 50.0f);
-    assert_true(slot->scans[0].bearings[0].sigma_elevation_rad == 0.0f);
-    assert_true(slot->scans[1].bearings[0].elevation_rad == 0.125f);
-    assert_true(slot->scans[1].bearings[0].sigma_elevation_rad ==
-                node.assembler.config.other.noise.sigma_elevation_rad);
+    run_until(INT64_MAX);
+    assert_string_equal(done, "BBBBBB");
     assert_int_equal(node.counters.bearings_refused, 0);
+    assert_int_equal(node.tracker.num_sensors, 2);
+#if RHO_SEARCHES
+    const struct rho_batch *batch = &node.passive.batch;
+    assert_int_equal(batch->num_scans, 3);
+    assert_int_equal(batch->num_sensors, 2);
+    for (unsigned k = 0; k < 3; k++) {
+        assert_int_equal(batch->num_bearings[k][0], 1);
+        assert_int_equal(batch->num_bearings[k][1], 1);
+        assert_true(batch->looks[k][0].z_m == 0.0f && batch->looks[k][1].z_m == 50.0f);
+        assert_true(batch->bearings[k][0][0].sigma_slope == 0.0f);
+        assert_true(batch->bearings[k][1][0].sigma_slope > 0.0f);
+    }
+#endif
 }
 
-static void scans_wait_for_an_open_frame_of_bearings(void **state)
+/* Bearings and plots of one time are stepped as they come, and wait for no frame. */
+static void bearings_and_plots_are_stepped_in_the_order_of_time(void **state)
 {
     (void)state;
     start_default_node();
     node.assembler.config.hold_us = 0;
     send_bearing(1, 0.0f, 0, now_us);
-    for (int32_t scan = 0; scan < WAITING; scan++) {
+    assert_string_equal(done, "B");
+    for (int32_t scan = 0; scan < 3; scan++) {
         send_scan(5, scan, now_us + 10 + 10 * scan);
-        assert_string_equal(done, scan + 1 < WAITING ? "" : "FSSSS");
     }
-    send_scan(5, WAITING, now_us + 10 + 10 * WAITING);
-    assert_string_equal(done, WAITING > 0 ? "FSSSSS" : "FS");
+    send_bearing(1, 0.0f, 1, now_us + 100);
+    assert_string_equal(done, "BSSSB");
 }
 
-/* A scan of a sensor is taken wherever it stands, and the frames begin not anew. */
+/* A scan of a sensor is taken wherever it stands, and nothing begins anew. */
 static void a_moving_passive_sensor_is_heard_from_everywhere(void **state)
 {
     (void)state;
@@ -599,14 +582,11 @@ static void a_moving_passive_sensor_is_heard_from_everywhere(void **state)
         const float y_m = k < 4 ? 0.0f : 500.0f * (float)k;
         send_bearing(1, y_m, k, now_us);
         send_bearing(2, y_m, k, now_us); /* both at one place */
-        assert_int_equal(node.frames.num_sensors, 2);
-        for (int i = 0; i < 2; i++) {
-            assert_float_equal(node.frames.sensors[i].y_m, y_m, 0.0);
-        }
     }
+    run_until(INT64_MAX);
+    assert_int_equal(node.counters.steps, 42);
     assert_int_equal(node.counters.bearings_refused, 0);
     assert_int_equal(node.counters.restarts, 0);
-    assert_int_equal(node.frames.counters.frames_incomplete, 0);
 }
 
 static void passive_sensors_have_the_range_of_the_initiation(void **state)
@@ -642,9 +622,8 @@ static void passive_sensors_far_apart_are_refused_by_the_papers_method(void **st
             send_bearing(3, far_m, scan, now_us + 10000000 * scan);
             run_until(INT64_MAX);
         }
-        assert_string_equal(done, "FFF");
+        assert_string_equal(done, "BBBBBBBBB");
         assert_int_equal(node.counters.bearings_refused, is_by_paper ? 3 : 0);
-        assert_int_equal(node.frames.num_sensors, is_by_paper ? 2 : 3);
     }
 }
 
@@ -709,9 +688,8 @@ int main(void)
         cmocka_unit_test(a_scan_of_a_sensor_without_room_is_refused),
         cmocka_unit_test(a_restart_keeps_what_is_no_track),
         cmocka_unit_test(zones_count_on_over_a_restart),
-        cmocka_unit_test(frames_close_at_the_next_frame_or_by_timeout),
-        cmocka_unit_test(frames_hold_directions_beside_bearings),
-        cmocka_unit_test(scans_wait_for_an_open_frame_of_bearings),
+        cmocka_unit_test(directions_are_stepped_beside_bearings),
+        cmocka_unit_test(bearings_and_plots_are_stepped_in_the_order_of_time),
         cmocka_unit_test(a_moving_passive_sensor_is_heard_from_everywhere),
         cmocka_unit_test(passive_sensors_have_the_range_of_the_initiation),
         cmocka_unit_test(passive_sensors_far_apart_are_refused_by_the_papers_method),

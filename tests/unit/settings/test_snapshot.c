@@ -17,6 +17,7 @@
 #include "rhotrack/passive.h"
 #include "rhotrack/snapshot.h"
 #include "rhotrack/tracker.h"
+#include "step_looks.h"
 
 #define PI 3.14159265358979323846
 #define EVENTS_MAX 96
@@ -203,7 +204,7 @@ static void step_pipeline(struct pipeline *at, const struct event *drawn)
         event.looks[sensor].bearings = event.bearings[sensor];
     }
     assert_int_equal(event.is_frame
-                         ? rho_tracker_step_frame(&at->tracker, &at->passive, &event.frame, &report)
+                         ? step_looks(&at->tracker, &at->passive, NULL, &event.frame, &report)
                          : rho_tracker_step(&at->tracker, &at->initiators[event.scan.sensor_id],
                                             &event.scan, &report),
                      RHO_OK);

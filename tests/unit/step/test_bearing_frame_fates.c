@@ -126,7 +126,7 @@ static void fate_counters_add_up_over_a_long_run(void **state)
         fly_frame(k, 10.0);
         const struct rho_tracker_counters *counters = &tracker.counters;
         frames++;
-        assert_int_equal(counters->scans_accepted, frames);
+        assert_int_equal(counters->scans_accepted, 3 * frames);
         assert_int_equal(counters->fates[RHO_FATE_HELD] + counters->fates[RHO_FATE_GHOST],
                          counters->plots_initiated + counters->plots_clutter +
                              count_bearings_of_track_in_batch(0));
@@ -146,13 +146,11 @@ static void fate_counters_add_up_over_a_long_run(void **state)
  * order.
  */
 static void expect_newest_batch_frame_holds_held_and_ghosts(unsigned sensor,
-                                                            const struct rho_bearing_scan *scan,
-                                                            uint32_t first_row)
+                                                            const struct rho_bearing_scan *scan)
 {
     unsigned newest = passive.batch.num_scans - 1u, held = 0;
-    for (uint32_t i = 0; i < scan->num_bearings && first_row + i < RHO_MAX_PLOTS; i++) {
-        if (report.fates[first_row + i] == RHO_FATE_HELD ||
-            report.fates[first_row + i] == RHO_FATE_GHOST) {
+    for (uint32_t i = 0; i < scan->num_bearings && i < RHO_MAX_PLOTS; i++) {
+        if (report.fates[i] == RHO_FATE_HELD || report.fates[i] == RHO_FATE_GHOST) {
             const struct rho_batch_bearing *bearing = &passive.batch.bearings[newest][sensor][held];
             assert_true(bearing->bearing_rad == scan->bearings[i].bearing_rad);
             held++;
@@ -167,8 +165,6 @@ static void step_three_bearing_scans_and_expect_fates(uint32_t num_0, uint32_t n
 {
     const uint32_t num[3] = {num_0, num_1, num_2};
     const float middle_rad[3] = {0.4f, -0.4f, -0.3f};
-    struct rho_bearing_scan scans[3];
-    uint32_t first = 0;
     start_chain(5.0f);
     scene = scene_of(3, 0, 0.1, 1.0, 0.0);
     for (unsigned s = 0; s < 3; s++) {
@@ -176,23 +172,20 @@ static void step_three_bearing_scans_and_expect_fates(uint32_t num_0, uint32_t n
             many[s][i] = (struct rho_bearing){.bearing_rad = middle_rad[s] + 1e-5f * (float)i,
                                               .sigma_rad = 0.01f};
         }
-        scans[s] = (struct rho_bearing_scan){.sensor_id = (int32_t)s,
-                                             .x_m = (float)scene.sensor_x_m[s],
-                                             .y_m = (float)scene.sensor_y_m[s],
-                                             .num_bearings = num[s],
-                                             .bearings = many[s]};
-    }
-    const struct rho_frame frame = {.num_scans = 3, .scans = scans};
-    step_frame(&frame);
-    for (unsigned s = 0; s < 3; s++) {
-        for (uint32_t i = 0; i < num[s] && first + i < RHO_MAX_PLOTS; i++) {
-            assert_int_equal(report.fates[first + i],
+        const struct rho_bearing_scan look = {.sensor_id = (int32_t)s,
+                                              .x_m = (float)scene.sensor_x_m[s],
+                                              .y_m = (float)scene.sensor_y_m[s],
+                                              .num_bearings = num[s],
+                                              .bearings = many[s]};
+        step_frame(&(struct rho_frame){.num_scans = 1, .scans = &look});
+        for (uint32_t i = 0; i < num[s] && i < RHO_MAX_PLOTS; i++) {
+            assert_int_equal(report.fates[i],
                              i < RHO_MAX_BEARINGS ? RHO_FATE_HELD : RHO_FATE_NO_ROOM);
         }
-        expect_newest_batch_frame_holds_held_and_ghosts(s, &scans[s], first);
-        first += num[s];
+        expect_newest_batch_frame_holds_held_and_ghosts(s, &look);
+        assert_int_equal(
+            report.fates_total[RHO_FATE_INVALID] + report.fates_total[RHO_FATE_GHOST], 0);
     }
-    assert_int_equal(report.fates_total[RHO_FATE_INVALID] + report.fates_total[RHO_FATE_GHOST], 0);
 }
 
 static void bearings_beyond_the_capacities_get_fate_no_room(void **state)
@@ -200,43 +193,25 @@ static void bearings_beyond_the_capacities_get_fate_no_room(void **state)
     (void)state;
     step_three_bearing_scans_and_expect_fates(RHO_MAX_BEARINGS, RHO_MAX_BEARINGS + 1, 2);
     step_three_bearing_scans_and_expect_fates(RHO_MAX_BEARINGS + 7, 0, RHO_MAX_BEARINGS + 9);
-    /*
-     * the last bearing with a fate is in the second scan, before the third, the last of the first,
-     * in the first
-     */
-    step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS - 3, 5, 4);
-    step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS - 3, 3, 4);
     step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS, 3, 4);
     step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS + 40, 3, 4);
     step_three_bearing_scans_and_expect_fates(1, RHO_MAX_PLOTS + 40, 4);
 }
 
-/* The total exceeds 32 bits; only the first bearings of each scan are read. */
+/* The first bearings alone are read. */
 static void absurd_numbers_of_bearings_do_no_harm(void **state)
 {
     (void)state;
-    struct rho_bearing_scan scans[3];
-    const uint32_t num[3] = {UINT32_MAX, 5, 4};
     start_chain(5.0f);
-    scene = scene_of(3, 0, 0.1, 1.0, 0.0);
-    for (unsigned s = 0; s < 3; s++) {
-        scans[s] = (struct rho_bearing_scan){.sensor_id = (int32_t)s,
-                                             .x_m = (float)scene.sensor_x_m[s],
-                                             .y_m = (float)scene.sensor_y_m[s],
-                                             .num_bearings = num[s],
-                                             .bearings = many[s]};
-        for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
-            many[s][i] = (struct rho_bearing){.bearing_rad = 0.1f * (float)i, .sigma_rad = 0.01f};
-        }
+    for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
+        many[0][i] = (struct rho_bearing){.bearing_rad = 0.1f * (float)i, .sigma_rad = 0.01f};
     }
-    const struct rho_frame frame = {.num_scans = 3, .scans = scans};
-    assert_int_equal(rho_tracker_step_frame(&tracker, &passive, &frame, &report), RHO_OK);
+    const struct rho_bearing_scan look = {.num_bearings = UINT32_MAX, .bearings = many[0]};
+    assert_int_equal(rho_tracker_step_bearings(&tracker, &passive, &look, &report), RHO_OK);
     assert_int_equal(report.num_plots, UINT32_MAX);
-    /* bearings without a fate are not held */
-    assert_int_equal(passive.batch.num_bearings[0][1], 0);
-    assert_int_equal(passive.batch.num_bearings[0][2], 0);
-    expect_newest_batch_frame_holds_held_and_ghosts(
-        0, &(struct rho_bearing_scan){.num_bearings = 50, .bearings = many[0]}, 0);
+    assert_int_equal(report.fates_total[RHO_FATE_HELD], RHO_MAX_BEARINGS);
+    assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], UINT32_MAX - RHO_MAX_BEARINGS);
+    expect_newest_batch_frame_holds_held_and_ghosts(0, &look);
 }
 
 /* The track table is full of tracks of plots in the west, where the passive sensors do not look. */
@@ -296,9 +271,9 @@ static void a_late_frame_changes_counters_only(void **state)
     assert_int_equal(report.fates_total[RHO_FATE_STALE], 2);
     assert_int_equal(report.fates[0] + report.fates[1], 2 * RHO_FATE_STALE);
     assert_int_equal(report.num_tracks, 1);
-    assert_int_equal(report.tracks[0].hits, 12);
-    assert_int_equal(tracker.counters.scans_late, 1);
-    assert_int_equal(tracker.counters.scans_accepted, 12);
+    assert_int_equal(report.tracks[0].hits, 24);
+    assert_int_equal(tracker.counters.scans_late, 2);
+    assert_int_equal(tracker.counters.scans_accepted, 24);
     assert_int_equal(tracker.counters.fates[RHO_FATE_STALE], 2);
     tracker.counters = tracker_then.counters;
     assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
@@ -307,20 +282,20 @@ static void a_late_frame_changes_counters_only(void **state)
     assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
 }
 
-static void expect_refused_frame(struct rho_passive *of, enum rho_status status)
+static void expect_refused_look(struct rho_passive *of, enum rho_status status)
 {
-    assert_int_equal(rho_tracker_step_frame(&tracker, of, &full.frame, &report), status);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, of, &full.scans[0], &report), status);
     assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
     assert_memory_equal(&passive, &passive_then, sizeof passive);
     assert_memory_equal(&report, &report_then, sizeof report);
 }
 
-/* A good frame that was never stepped, with one fault in it. */
+/* A good look that was never stepped, with one fault in it. */
 #define EXPECT_REFUSED(change, status)                                                             \
     do {                                                                                           \
         fill_frame(&scene, scene_slot_of(12), &full);                                              \
         change;                                                                                    \
-        expect_refused_frame(&passive, status);                                                    \
+        expect_refused_look(&passive, status);                                                    \
     } while (0)
 
 static void prepare_good_frame(void)
@@ -334,12 +309,11 @@ static void null_pointers_are_refused(void **state)
 {
     (void)state;
     prepare_good_frame();
-    assert_int_equal(rho_tracker_step_frame(NULL, &passive, &full.frame, &report), RHO_ERROR_NULL);
-    assert_int_equal(rho_tracker_step_frame(&tracker, &passive, NULL, &report), RHO_ERROR_NULL);
-    assert_int_equal(rho_tracker_step_frame(&tracker, &passive, &full.frame, NULL), RHO_ERROR_NULL);
-    EXPECT_REFUSED(full.frame.scans = NULL, RHO_ERROR_NULL);
+    const struct rho_bearing_scan *look = &full.scans[0];
+    assert_int_equal(rho_tracker_step_bearings(NULL, &passive, look, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, &passive, NULL, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, &passive, look, NULL), RHO_ERROR_NULL);
     EXPECT_REFUSED(full.scans[0].bearings = NULL, RHO_ERROR_NULL);
-    EXPECT_REFUSED(full.scans[1].bearings = NULL, RHO_ERROR_NULL);
 }
 
 static void objects_never_initialised_are_refused(void **state)
@@ -353,7 +327,7 @@ static void objects_never_initialised_are_refused(void **state)
     passive.magic = 0;
     copy_objects();
     EXPECT_REFUSED((void)0, RHO_ERROR_STATE);
-    expect_refused_frame(&passive, RHO_ERROR_STATE);
+    expect_refused_look(&passive, RHO_ERROR_STATE);
 }
 
 static void numbers_out_of_range_are_refused(void **state)
@@ -363,33 +337,27 @@ static void numbers_out_of_range_are_refused(void **state)
     const float bad_rad[] = {NAN, INFINITY, 6.3f, -6.3f};
     prepare_good_frame();
     for (unsigned i = 0; i < NUM(bad_m); i++) {
-        EXPECT_REFUSED(full.scans[1].x_m = bad_m[i], RHO_ERROR_VALUE);
-        EXPECT_REFUSED(full.scans[1].y_m = bad_m[i], RHO_ERROR_VALUE);
+        EXPECT_REFUSED(full.scans[0].x_m = bad_m[i], RHO_ERROR_VALUE);
+        EXPECT_REFUSED(full.scans[0].y_m = bad_m[i], RHO_ERROR_VALUE);
+        EXPECT_REFUSED(full.scans[0].z_m = bad_m[i], RHO_ERROR_VALUE);
         EXPECT_REFUSED(full.scans[0].sector_from_rad = bad_rad[i], RHO_ERROR_VALUE);
-        EXPECT_REFUSED(full.scans[1].sector_to_rad = bad_rad[i], RHO_ERROR_VALUE);
+        EXPECT_REFUSED(full.scans[0].sector_to_rad = bad_rad[i], RHO_ERROR_VALUE);
     }
-    EXPECT_REFUSED(full.frame.time_us = RHO_LIMIT_TIME_US + 1, RHO_ERROR_VALUE);
-    EXPECT_REFUSED(full.frame.time_us = INT64_MIN, RHO_ERROR_VALUE);
+    EXPECT_REFUSED(full.scans[0].time_us = RHO_LIMIT_TIME_US + 1, RHO_ERROR_VALUE);
+    EXPECT_REFUSED(full.scans[0].time_us = -RHO_LIMIT_TIME_US - 1, RHO_ERROR_VALUE);
     EXPECT_REFUSED(full.scans[0].time_us = INT64_MAX, RHO_ERROR_VALUE);
     EXPECT_REFUSED(full.scans[0].time_us = INT64_MIN, RHO_ERROR_VALUE);
-    EXPECT_REFUSED(full.scans[1].time_us += RHO_LIMIT_OFFSET_US + 1, RHO_ERROR_VALUE);
-    EXPECT_REFUSED(full.scans[1].time_us -= RHO_LIMIT_OFFSET_US + 1, RHO_ERROR_VALUE);
 }
 
-static void frames_that_the_batch_refuses_are_refused(void **state)
+static void looks_that_the_batch_refuses_are_refused(void **state)
 {
     (void)state;
     prepare_good_frame();
-    EXPECT_REFUSED(full.frame.time_us = full.scans[0].time_us = 110000000, RHO_ERROR_STATE);
-    EXPECT_REFUSED(full.scans[1] = full.scans[0], RHO_ERROR_VALUE);
-    EXPECT_REFUSED(full.scans[1].sensor_id = full.scans[0].sensor_id, RHO_ERROR_VALUE);
+    EXPECT_REFUSED(full.scans[0].time_us = 110000000, RHO_ERROR_STATE); /* a second look */
     track_incomer_for_twelve_frames(RHO_MAX_PASSIVE_SENSORS);
     see_frame(12, 120.0);
     copy_objects();
     EXPECT_REFUSED(full.scans[0].sensor_id = 99, RHO_ERROR_CAPACITY);
-    fill_frame(&scene, scene_slot_of(12), &full);
-    full.scans[0].time_us += RHO_LIMIT_OFFSET_US; /* the largest offset allowed */
-    step_frame(&full.frame);
 }
 
 static void without_passive_initiation_tracks_go_on_and_none_start(void **state)
@@ -401,35 +369,20 @@ static void without_passive_initiation_tracks_go_on_and_none_start(void **state)
     scene.target[1] = (struct target){.x_m = 30e3, .y_m = -20e3, .vx_mps = -100.0, .vy_mps = 90.0};
     for (unsigned k = 12; k < 24; k++) {
         see_frame(k, 10.0 * k);
-        assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &full.frame, &report), RHO_OK);
+        assert_int_equal(step_looks(&tracker, NULL, NULL, &full.frame, &report), RHO_OK);
         check_fate_counts_add_up(&full.frame);
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
         assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], 2);
         assert_int_equal(report.num_tracks, 1);
-        assert_int_equal(report.tracks[0].hits, k + 1);
+        assert_int_equal(report.tracks[0].hits, 2 * (k + 1));
     }
     assert_memory_equal(&passive, &passive_then, sizeof passive);
     /* too many sensors do not matter without initiation */
-    full.frame.time_us += 1;
-    full.scans[1].sensor_id = 99;
-    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &full.frame, &report), RHO_OK);
+    full.scans[0].sensor_id = 99;
+    assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &full.scans[0], &report), RHO_OK);
     full.scans[0].x_m = NAN;
-    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &full.frame, &report), RHO_ERROR_VALUE);
-}
-
-/* A frame without scans counts no miss, but the batch moves on. */
-static void a_frame_without_scans_is_accepted(void **state)
-{
-    (void)state;
-    track_incomer_for_twelve_frames(2);
-    for (int64_t k = 12; k < 30; k++) {
-        const struct rho_frame frame = {.time_us = 10000000 * k};
-        step_frame(&frame);
-        assert_int_equal(report.num_tracks, 1);
-        assert_int_equal(report.tracks[0].misses, 0);
-    }
-    assert_int_equal(tracker.counters.scans_accepted, 30);
-    assert_int_equal(count_bearings_of_track_in_batch(0), 0);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &full.scans[0], &report),
+                     RHO_ERROR_VALUE);
 }
 
 /* Bearings of 0.01 rad sigma are covered up to four sigmas beyond a sensor's sector. */
@@ -446,12 +399,11 @@ static void bearings_over_4_sigmas_beyond_the_sector_are_invalid(void **state)
         const struct rho_bearing bearing = {.bearing_rad = bearings_rad[i], .sigma_rad = 0.01f};
         const struct rho_bearing_scan look_at = {
             .time_us = 1000000, .sensor_id = 10, .num_bearings = 1, .bearings = &bearing};
-        const struct rho_frame frame = {.time_us = 1000000, .num_scans = 1, .scans = &look_at};
         random_state = 9;
         scene = scene_of(2, 1, 0.1, 1.0, 0.0);
         start_chain(5.0f);
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
-        assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+        assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &look_at, &report), RHO_OK);
         assert_int_equal(tracker.counters.plots_outside, i % 2);
         assert_int_equal(report.fates[0] == RHO_FATE_INVALID, i % 2);
     }
@@ -471,9 +423,8 @@ int main(void)
         cmocka_unit_test(null_pointers_are_refused),
         cmocka_unit_test(objects_never_initialised_are_refused),
         cmocka_unit_test(numbers_out_of_range_are_refused),
-        cmocka_unit_test(frames_that_the_batch_refuses_are_refused),
+        cmocka_unit_test(looks_that_the_batch_refuses_are_refused),
         cmocka_unit_test(without_passive_initiation_tracks_go_on_and_none_start),
-        cmocka_unit_test(a_frame_without_scans_is_accepted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static void expect_target_found_with_third_frame(unsigned sensors)
         const struct rho_track_report *track = &report.tracks[0];
         assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
         assert_int_equal(track->track_id, 1);
-        assert_int_equal(track->hits, ROWS_MIN);
+        assert_int_equal(track->hits, sensors * ROWS_MIN);
         assert_int_equal(track->misses, 0);
         assert_int_equal(track->plot, -1);
         assert_int_equal(track->sensor_id, 10 + (int)sensors - 1);
@@ -42,7 +42,7 @@ static void expect_target_found_with_third_frame(unsigned sensors)
         assert_int_equal(tracker.counters.plots_initiated, sensors * ROWS_MIN);
         fly_frame(ROWS_MIN, 10.0);
         assert_int_equal(report.num_tracks, 1);
-        assert_int_equal(report.tracks[0].hits, ROWS_MIN + 1);
+        assert_int_equal(report.tracks[0].hits, sensors * (ROWS_MIN + 1));
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], sensors);
         runs++;
     }

@@ -226,9 +226,7 @@ static void gates_of_bearings_allow_for_manoeuvres(void **state)
                                                  .y_m = y_m,
                                                  .num_bearings = 1,
                                                  .bearings = &bearing};
-        const struct rho_frame frame = {
-            .time_us = look_up.time_us, .num_scans = 1, .scans = &look_up};
-        assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+        assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &look_up, &report), RHO_OK);
         assert_int_equal(report.fates[0], late_s ? RHO_FATE_CLAIMED : RHO_FATE_NO_ROOM);
     }
 }

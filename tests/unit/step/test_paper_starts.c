@@ -4,6 +4,7 @@
  * from bearings; what is held, used, counted and refused.
  */
 #include "rhotrack/paper_starts.h"
+#include "step_looks.h"
 #include "tracker_setup.h"
 
 #define SCAN_S 2.0
@@ -286,8 +287,7 @@ static void lines_from_bearings_start_tracks(void **state)
         assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
         for (int k = 0; k < 16; k++) {
             const struct rho_frame frame = make_frame(k);
-            assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
-            assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_OK);
+            assert_int_equal(step_looks(&tracker, NULL, &paper, &frame, &report), RHO_OK);
             assert_int_equal(count_fate(RHO_FATE_NO_ROOM), 0);
             assert_int_equal(report.num_tracks, k < 7 ? 0 : 1);
         }
@@ -305,19 +305,20 @@ static void bad_calls_of_passive_paper_are_refused(void **state)
 {
     (void)state;
     const struct rho_frame frame = make_frame(0);
+    const struct rho_bearing_scan *scan = &frame.scans[0];
     use_usual_configs(6);
     begin_tracker();
     struct rho_passive_paper_config of_paper;
     rho_passive_paper_config_default(&of_paper);
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
-    assert_int_equal(rho_passive_paper_step(NULL, &tracker, &frame, &report), RHO_ERROR_NULL);
-    assert_int_equal(rho_passive_paper_step(&paper, NULL, &frame, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_paper_step(NULL, &tracker, scan, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_paper_step(&paper, NULL, scan, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_step(&paper, &tracker, NULL, &report), RHO_ERROR_NULL);
-    assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_ERROR_STATE);
-    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+    assert_int_equal(rho_passive_paper_step(&paper, &tracker, scan, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_paper_step(&paper, &tracker, scan, &report), RHO_ERROR_STATE);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &frame.scans[0], &report), RHO_OK);
     memset(&paper, 0, sizeof paper);
-    assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_ERROR_STATE);
+    assert_int_equal(rho_passive_paper_step(&paper, &tracker, scan, &report), RHO_ERROR_STATE);
 }
 
 static void bad_estimates_given_by_a_caller_start_no_track(void **state)
@@ -330,7 +331,7 @@ static void bad_estimates_given_by_a_caller_start_no_track(void **state)
     rho_kalman_init(&estimate);
     assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, &report),
                      RHO_ERROR_STATE);
-    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &frame.scans[0], &report), RHO_OK);
     assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, &report),
                      RHO_ERROR_VALUE); /* no axis is open */
     for (int axis = 0; axis < 2; axis++) {

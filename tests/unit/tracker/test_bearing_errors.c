@@ -29,14 +29,13 @@ static void look_from_camera(error_of error, double t_s)
                                           .sensor_id = CAMERA,
                                           .num_bearings = 2,
                                           .bearings = bearings};
-    const struct rho_frame frame = {.time_us = scan.time_us, .num_scans = 1, .scans = &scan};
     for (int boat = 0; boat < 2; boat++) {
         bearings[boat] = (struct rho_bearing){
             .bearing_rad = (float)(atan2(boat_y_m(boat, t_s), boat_x_m(boat, t_s)) +
                                    error(boat, t_s) + SIGMA_RAD * normal()),
             .sigma_rad = (float)SIGMA_RAD};
     }
-    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &scan, &report), RHO_OK);
 }
 
 static const struct rho_bearing_errors *errors_of_camera(void)

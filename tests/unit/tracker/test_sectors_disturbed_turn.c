@@ -222,15 +222,14 @@ static void impossible_sectors_are_refused(void **state)
     for (size_t i = 0; i < 2 * sizeof ends / sizeof ends[0]; i++) {
         struct rho_scan bad = good;
         struct rho_bearing_scan bearings = {.time_us = good.time_us, .sensor_id = 1};
-        const struct rho_frame frame = {
-            .time_us = good.time_us, .num_scans = 1, .scans = &bearings};
 
         *(i % 2 ? &bad.sector_from_rad : &bad.sector_to_rad) = ends[i / 2];
         bearings.sector_from_rad = bad.sector_from_rad;
         bearings.sector_to_rad = bad.sector_to_rad;
         assert_int_equal(rho_tracker_step(&tracker, &initiator, &bad, &report), RHO_ERROR_VALUE);
         assert_int_equal(rho_tracker_step(&tracker, NULL, &bad, &report), RHO_ERROR_VALUE);
-        assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_ERROR_VALUE);
+        assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &bearings, &report),
+                         RHO_ERROR_VALUE);
         assert_int_equal(rho_initiator_push(&initiator, &bad, NULL, fates, &unused),
                          RHO_ERROR_VALUE);
         bad.time_us -= TURN_US; /* a late sector, too */

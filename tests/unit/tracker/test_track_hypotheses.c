@@ -322,8 +322,7 @@ static void bearings_are_gated_with_a_possible_new_input(void **state)
                                           .x_m = 2400.0f - 5000.0f,
                                           .num_bearings = 1,
                                           .bearings = &bearing};
-    const struct rho_frame frame = {.time_us = 12 * SCAN_US, .num_scans = 1, .scans = &scan};
-    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+    assert_int_equal(rho_tracker_step_bearings(&tracker, NULL, &scan, &report), RHO_OK);
     assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 1);
 }
 

@@ -18,7 +18,6 @@ static struct rho_report report;
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_passive passive;
-static struct rho_frames frames;
 static struct rho_scan_assembler assembler;
 static struct rho_message_track_list list;
 static struct rho_message_peak_list peaks;
@@ -239,7 +238,7 @@ static void bad_arguments_of_publishing_are_refused(void **state)
     assert_int_equal(rho_publish_peaks(NULL, NULL, 0, 0, buffer, 99, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_publish_peaks(NULL, NULL, 0, 0, buffer, 5, &size), RHO_ERROR_CAPACITY);
     assert_int_equal(size, 3);
-    rho_publish_status(NULL, NULL, NULL, NULL, NULL);
+    rho_publish_status(NULL, NULL, NULL, NULL);
 }
 
 /*
@@ -375,7 +374,6 @@ static void every_status_field_comes_from_its_counter(void **state)
     (void)state;
     memset(&tracker, 0, sizeof tracker);
     memset(&initiator, 0, sizeof initiator);
-    memset(&frames, 0, sizeof frames);
     memset(&assembler, 0, sizeof assembler);
     assembler.counters = (struct rho_scan_assembler_counters){.messages_bad = 1,
                                                               .messages_wrong_type = 2,
@@ -391,11 +389,6 @@ static void every_status_field_comes_from_its_counter(void **state)
                                                               .sensors_no_room = 2048,
                                                               .bearings_in = 4096,
                                                               .plots_no_room = 8192};
-    frames.counters = (struct rho_frames_counters){.frames_incomplete = 3,
-                                                   .scans_taken = 999,
-                                                   .scans_late = 100000,
-                                                   .scans_off_clock = 200000,
-                                                   .bearings_no_room = 300000};
     tracker.counters = (struct rho_tracker_counters){.scans_late = 1000000,
                                                      .plots_in = 2000000,
                                                      .plots_initiated = 3000000,
@@ -405,23 +398,22 @@ static void every_status_field_comes_from_its_counter(void **state)
     }
     tracker.time_us = 4711;
     initiator.density_per_m2 = 2.5e-7f;
-    rho_publish_status(&assembler, &frames, &tracker, &initiator, &status);
+    rho_publish_status(&assembler, &tracker, &initiator, &status);
     want = (struct rho_message_status){
         .utime = 4711,
         .messages_bad = 1,
         .messages_wrong_type = 2,
         .messages_flooded = 4,
         .scans_accepted = 8,
-        .scans_late = 16 + 100000 + 1000000,
+        .scans_late = 16 + 1000000,
         .scans_duplicate = 32,
         .scans_lost = 64,
         .scans_bad = 128 + 2048,
         .scans_incomplete = 256,
-        .clock_jumps = 512 + 200000,
+        .clock_jumps = 512,
         .sensor_restarts = 1024,
         .bearings_in = 4096,
-        .frames_incomplete = 3,
-        .plots_in = 2000000 + 8192 + 300000,
+        .plots_in = 2000000 + 8192,
         .plots_initiated = 3000000,
         .plots_clutter = 4000000,
         .plots_claimed = 10000000 * (RHO_FATE_CLAIMED + 1),
@@ -429,7 +421,7 @@ static void every_status_field_comes_from_its_counter(void **state)
         .ghosts_pruned = 10000000 * (RHO_FATE_GHOST + 1),
         .inputs_stale = 10000000 * (RHO_FATE_STALE + 1),
         .inputs_invalid = 10000000 * (RHO_FATE_INVALID + 1),
-        .inputs_no_room = 10000000 * (RHO_FATE_NO_ROOM + 1) + 8192 + 300000,
+        .inputs_no_room = 10000000 * (RHO_FATE_NO_ROOM + 1) + 8192,
         .clutter_per_km2 = 2.5e-7f * 1.0e6f,
     };
     assert_same_status(&want);
@@ -440,14 +432,14 @@ static void full_counters_are_clamped(void **state)
 {
     (void)state;
     memset(&assembler.counters, 0xff, sizeof assembler.counters);
-    memset(&frames.counters, 0xff, sizeof frames.counters);
     memset(&tracker.counters, 0xff, sizeof tracker.counters);
     tracker.num_tracks = 0;
-    rho_publish_status(&assembler, &frames, &tracker, NULL, &status);
+    rho_publish_status(&assembler, &tracker, NULL, &status);
     assert_int_equal(rho_message_status_validate(&status, &place), RHO_OK);
     for (const int32_t *field = &status.scans_accepted; field <= &status.ghosts_pruned; field++) {
-        int is_callers = field == &status.fragments_refused;
-        assert_int_equal(*field, is_callers ? 0 : INT32_MAX);
+        /* the caller's; and no frames of bearings are counted any more */
+        int is_zero = field == &status.fragments_refused || field == &status.frames_incomplete;
+        assert_int_equal(*field, is_zero ? 0 : INT32_MAX);
     }
 }
 
@@ -458,7 +450,7 @@ static void status_of_null_objects_is_all_zero(void **state)
     (void)state;
     memset(&zeros, 0, sizeof zeros);
     memset(&status, 0x5a, sizeof status);
-    rho_publish_status(NULL, NULL, NULL, NULL, &status);
+    rho_publish_status(NULL, NULL, NULL, &status);
     assert_true(status.utime == 0 && status.scan == 0 && status.ghosts_pruned == 0);
     assert_true(status.tracks_coasting == 0 && status.clutter_per_km2 == 0.0f);
     assert_int_equal(rho_message_status_validate(&status, &place), RHO_OK);
@@ -521,7 +513,7 @@ static void check_status_while_three_targets_come_and_go(int is_first)
         for (unsigned i = 0; i < report.num_tracks; i++) {
             live[report.tracks[i].status]++;
         }
-        rho_publish_status(NULL, NULL, &tracker, NULL, &status);
+        rho_publish_status(NULL, &tracker, NULL, &status);
         assert_int_equal(status.tracks_tentative, live[RHO_TRACK_TENTATIVE]);
         assert_int_equal(status.tracks_confirmed, live[RHO_TRACK_CONFIRMED]);
         assert_int_equal(status.tracks_coasting, live[RHO_TRACK_COASTING]);

@@ -4,6 +4,7 @@
  * them, compared with the objects; message rates, turns, and messages left out.
  */
 #include "rhotrack/publish.h"
+#include "step_looks.h"
 #include "tracker_setup.h"
 
 #define SCAN_S 2.0
@@ -404,8 +405,7 @@ static void step_bearings(int k, unsigned sensors, unsigned targets)
     }
     const struct rho_frame frame = {
         .time_us = (int64_t)(1e6 * t_s), .num_scans = sensors, .scans = looks};
-    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
-    assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_OK);
+    assert_int_equal(step_looks(&tracker, NULL, &paper, &frame, &report), RHO_OK);
 }
 
 static void start_with_passive_paper(void)

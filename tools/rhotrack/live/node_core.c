@@ -99,7 +99,7 @@ static void send_show_messages(struct node_core *core, enum rho_node_due done)
     const struct pipeline_show_output output = {core->events.context, core->events.send};
     const struct rho_node *node = core->pipeline.node;
 
-    pipeline_show_step(core->show, &core->pipeline, done == RHO_NODE_FRAME, node->step, node->epoch,
+    pipeline_show_step(core->show, &core->pipeline, done == RHO_NODE_BEARINGS, node->step, node->epoch,
                        node->now_us, &output);
 }
 
@@ -140,14 +140,14 @@ static void add_time_sample(struct node_core_times *times, int64_t took_us)
     times->max_us = took_us > times->max_us ? took_us : times->max_us;
 }
 
-/* Time from the reception of the step's scan to now; of a frame, from its last bearing scan. */
+/* Time from the reception of the step's scan to now; of bearings, from the newest scan of them. */
 static int64_t scan_waiting_time_us(const struct node_core *core, enum rho_node_due due)
 {
     int64_t heard_us = INT64_MIN;
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *source = &core->pipeline.node->assembler.sources[i];
-        const bool is_of_step = due == RHO_NODE_FRAME
+        const bool is_of_step = due == RHO_NODE_BEARINGS
                                     ? source->kind == RHO_SCAN_ASSEMBLER_BEARINGS
                                     : source->kind != RHO_SCAN_ASSEMBLER_BEARINGS &&
                                           source->sensor_id == core->pipeline.node->scan.sensor_id;
@@ -186,14 +186,14 @@ static void step_all_due(struct node_core *core, int64_t now_us)
         if (node->settings_changed != changed_before) {
             adopt_changed_settings(core);
         }
-        if (done == RHO_NODE_SCAN || done == RHO_NODE_FRAME) {
+        if (done == RHO_NODE_SCAN || done == RHO_NODE_BEARINGS) {
             pipeline_warn_shared_windows(&core->pipeline, shared_before, node->scan.sensor_id);
             end_step(core, done, monotonic_clock_us() - start_us);
         }
         send_messages(core);
         if (done == RHO_NODE_RESTART && core->events.began_anew) {
             core->events.began_anew(core->events.context);
-        } else if (done == RHO_NODE_SCAN || done == RHO_NODE_FRAME) {
+        } else if (done == RHO_NODE_SCAN || done == RHO_NODE_BEARINGS) {
             send_show_messages(core, done);
         }
     }
@@ -457,11 +457,6 @@ struct rho_clutter_map *node_core_clutter_map(struct node_core *core)
 const struct rho_scan_assembler_counters *node_core_assembler_counters(const struct node_core *core)
 {
     return &core->shown;
-}
-
-const struct rho_frames_counters *node_core_frame_counters(const struct node_core *core)
-{
-    return &core->pipeline.node->frames.counters;
 }
 
 const struct rho_tracker_counters *node_core_tracker_counters(const struct node_core *core)

@@ -19,7 +19,6 @@
 #include "io/scans/out_of_sequence_counts.h"
 #include "pipeline/pipeline_show.h"
 #include "pipeline/pipeline_snapshot.h"
-#include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
 #include "rhotrack/reflectors.h"
@@ -103,7 +102,6 @@ const struct rho_report *node_core_last_report(const struct node_core *core);
  */
 const struct rho_scan_assembler_counters *
 node_core_assembler_counters(const struct node_core *core);
-const struct rho_frames_counters *node_core_frame_counters(const struct node_core *core);
 const struct rho_tracker_counters *node_core_tracker_counters(const struct node_core *core);
 const struct rho_node_counters *node_core_node_counters(const struct node_core *core);
 

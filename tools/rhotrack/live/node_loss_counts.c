@@ -43,7 +43,6 @@ static void collect_scan_and_plot_tallies(const struct node_core *core,
                                           struct node_loss_counts tallies[STEP_TALLIES])
 {
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
-    const struct rho_frames_counters *frames = node_core_frame_counters(core);
     const struct rho_tracker_counters *tracker = node_core_tracker_counters(core);
     const struct rho_node_counters *own = node_core_node_counters(core);
     const struct scan_losses losses =
@@ -64,14 +63,9 @@ static void collect_scan_and_plot_tallies(const struct node_core *core,
         {"tracker restarts", own->restarts, NODE_TALLY_USUAL, false},
         {"plots beyond a scan's capacity", assembler->plots_no_room, NODE_TALLY_FAULT, true},
         {"scans refused", own->scans_refused, NODE_TALLY_FAULT, false},
-        {"frames refused", own->frames_refused, NODE_TALLY_FAULT, false},
         {"bearing scans refused (places, too many sensors)", own->bearings_refused,
          NODE_TALLY_FAULT, false},
         {"sensors' descriptions refused", own->sensors_refused, NODE_TALLY_FAULT, false},
-        {"bearing scans late, dropped", frames->scans_late, NODE_TALLY_FAULT, false},
-        {"bearing scans far off the clock", frames->scans_off_clock, NODE_TALLY_FAULT, false},
-        {"frames incomplete", frames->frames_incomplete, NODE_TALLY_USUAL, false},
-        {"bearings beyond a scan's capacity", frames->bearings_no_room, NODE_TALLY_USUAL, false},
         {"inputs stale", tracker->fates[RHO_FATE_STALE], NODE_TALLY_FAULT, false},
         {"inputs invalid", tracker->fates[RHO_FATE_INVALID] - tracker->plots_outside,
          NODE_TALLY_FAULT, false},

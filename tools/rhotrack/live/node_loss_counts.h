@@ -12,7 +12,7 @@
 #include "live/node_core.h"
 #include "transport/transport.h"
 
-#define NODE_TALLIES 41
+#define NODE_TALLIES 36
 
 enum node_tally_kind {
     NODE_TALLY_USUAL = 0, /* counts events of normal operation; no warning */

@@ -87,7 +87,6 @@ static void write_input_counters(FILE *out, const struct prometheus_metrics_sour
 {
     const struct rho_scan_assembler_counters *assembler =
         node_core_assembler_counters(source->core);
-    const struct rho_frames_counters *frames = node_core_frame_counters(source->core);
     const struct rho_node_counters *own = node_core_node_counters(source->core);
     const struct transport_counters network = transport_counters(source->transport);
     const struct row rows[] = {
@@ -101,10 +100,6 @@ static void write_input_counters(FILE *out, const struct prometheus_metrics_sour
          "Scans behind a newer one of their sensor, used or not, and scans of a clock given up.",
          assembler->scans_late},
         {"bearings_total", "Bearings of accepted scans.", assembler->bearings_in},
-        {"bearing_scans_total", "Scans of bearings taken into frames.", frames->scans_taken},
-        {"frames_total", "Frames of bearings closed.", frames->frames},
-        {"frames_clock_jumps_total", "Jumps of the clock of bearings followed.",
-         frames->clock_jumps},
         {"steps_total", "Steps of the tracker.", own->steps},
         {"plots_refused_total", "Plots of scans whose sensor the tracker does not take.",
          own->plots_refused},

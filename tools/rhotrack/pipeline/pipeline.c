@@ -138,15 +138,6 @@ void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *pa
     }
 }
 
-static void set_frames_config(struct rho_frames_config *config, const struct parameters *parameters)
-{
-    const double *value = parameters->value;
-
-    config->tolerance_us = llround(value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
-    config->jump_max_us = llround(value[PARAMETER_JUMP_MAX_S] * 1e6);
-    config->follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS];
-}
-
 void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct rho_node_config config = config_of_parameters(pipeline, parameters);
@@ -161,12 +152,7 @@ void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *p
         config.passive_paper = method_passive_paper_config(&customary);
     }
     config.passive_range_max_m = (float)parameters->value[PARAMETER_RANGE_MAX_M];
-    if (pipeline->is_live) {
-        set_frames_config(&config.frames, parameters);
-    }
-    if (rho_node_configure_bearings(pipeline->node, &config) != RHO_OK) {
-        fail(EXIT_USAGE, "node: frame_tolerance_s has to be 10 s at most, and below jump_max_s");
-    }
+    must_succeed(rho_node_configure_bearings(pipeline->node, &config), "passive");
     pipeline->has_bearings = true;
 }
 
@@ -214,9 +200,68 @@ void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
     pipeline_warn_shared_windows(pipeline, shared_before, scan->sensor_id);
 }
 
-void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame)
+/* What the looks of a frame tell together, but for tracks: those of the last look count. */
+struct frame_report {
+    uint32_t num_ended, fates_total[RHO_NUM_FATES], ended[RHO_MAX_TRACKS];
+    uint8_t fates[RHO_MAX_PLOTS];
+};
+
+/* first: number of bearings of the looks before it in the frame */
+static void add_look_to_frame(struct frame_report *of_frame, const struct rho_report *report,
+                              uint32_t first)
 {
-    must_succeed(rho_node_step_frame(pipeline->node, frame), "step");
+    for (unsigned i = 0; i < report->num_ended && of_frame->num_ended < RHO_MAX_TRACKS; i++) {
+        of_frame->ended[of_frame->num_ended++] = report->ended[i];
+    }
+    for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
+        of_frame->fates_total[fate] += report->fates_total[fate];
+    }
+    for (uint32_t i = 0; i < report->num_plots && first + i < RHO_MAX_PLOTS; i++) {
+        of_frame->fates[first + i] = report->fates[i];
+    }
+}
+
+static int compare_looks_by_time(const void *a, const void *b)
+{
+    const struct rho_bearing_scan *const *first = a, *const *second = b;
+    const int64_t first_us = (*first)->time_us, second_us = (*second)->time_us;
+
+    return first_us != second_us ? (first_us > second_us) - (first_us < second_us)
+                                 : (*first > *second) - (*first < *second);
+}
+
+void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame,
+                         void (*after_look)(void *context), void *context)
+{
+    struct rho_report *report = &pipeline->node->report;
+    struct frame_report of_frame = {.num_ended = 0};
+    const struct rho_bearing_scan **looks = must_calloc((size_t)frame->num_scans + 1,
+                                                        sizeof *looks);
+    uint32_t num_bearings = 0;
+
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        looks[i] = &frame->scans[i];
+    }
+    qsort(looks, frame->num_scans, sizeof *looks, compare_looks_by_time);
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        uint32_t first = 0;
+
+        must_succeed(rho_node_step_bearings(pipeline->node, looks[i]), "step");
+        for (const struct rho_bearing_scan *before = frame->scans; before < looks[i]; before++) {
+            first += before->num_bearings;
+        }
+        add_look_to_frame(&of_frame, report, first);
+        num_bearings += looks[i]->num_bearings;
+        if (after_look) {
+            after_look(context);
+        }
+    }
+    free(looks);
+    report->num_plots = num_bearings;
+    report->num_ended = (uint16_t)of_frame.num_ended;
+    memcpy(report->ended, of_frame.ended, sizeof report->ended);
+    memcpy(report->fates_total, of_frame.fates_total, sizeof report->fates_total);
+    memcpy(report->fates, of_frame.fates, sizeof report->fates);
 }
 
 /* ---- Parts ---- */

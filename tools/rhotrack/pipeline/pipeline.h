@@ -65,9 +65,15 @@ void pipeline_give_storage(struct pipeline *pipeline);
 void pipeline_warn_shared_windows(const struct pipeline *pipeline, uint32_t shared_before,
                                   int32_t sensor_id);
 
-/* Steps a scan, or a frame of bearings, completely; the result is in node->report. */
+/* Steps a scan completely; the result is in node->report. */
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);
-void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame);
+/*
+ * Steps the looks of a frame of bearings, in the order of time. node->report is then the last one's,
+ * with the fates of all bearings, in the frame's order, and the tracks that ended in any of them.
+ *   after_look  called after each step, with the context; NULL: nothing
+ */
+void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame,
+                         void (*after_look)(void *context), void *context);
 
 /* The node's zones, learning of walls and method for bearings; NULL where there are none. */
 const struct rho_zones *pipeline_zones(const struct pipeline *pipeline);
