@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import subprocess
+import types
 import unittest
 
 import lab_test_setup
@@ -258,6 +259,17 @@ class Crossings(unittest.TestCase):
         found = figures(sky, stonesoup_bearings.track(sky))
         self.assertGreater(found["completeness"], 0.6)
         self.assertEqual((found["false"], found["wrong"]), (0, 0))
+
+
+class Pictures(unittest.TestCase):
+    def test_the_legend_of_the_rows_has_only_trackers_that_ran(self):
+        drawn = []
+        report = types.SimpleNamespace(figure=lambda name, figure, caption: drawn.append(figure))
+        scores = {"completeness": (0.9, 0.1), "rms_m": (80, 1)}
+        bearings.draw(report, {"turning .1 deg": {bearings_runs.RHOTRACK: scores,
+                                                  bearings_runs.ORACLE: scores}})
+        self.assertEqual([text.get_text() for text in drawn[0].legends[0].get_texts()],
+                         ["oracle", "rhotrack", "goal"])
 
 
 class EndToEnd(unittest.TestCase):

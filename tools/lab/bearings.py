@@ -237,6 +237,8 @@ def draw(report, figures):
     for who, colour, marker in ((ORACLE, "#9aa3ad", "|"), (STONE_SOUP, "#2e8b57", "s"),
                                 (PAPER, "#e0812b", "x"), (RHOTRACK, "#1f5fbf", "o")):
         rows = [figures[name].get(who) for name in names]
+        if not any(rows):
+            continue  # not installed, or of none of these rows
         for axes, key in ((left, "completeness"), (right, "rms_m")):
             axes.plot([row[key][0] if isinstance(row, dict) else np.nan for row in rows], places,
                       marker, color=colour, label=who, ls="")
