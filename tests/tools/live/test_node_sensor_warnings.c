@@ -289,6 +289,35 @@ static void a_stopped_sensor_is_reported_silent(void **state)
     close_node_core(live);
 }
 
+/* One kind of RHO_SENSORS is both bearings and directions: the line names both channels. */
+static void a_stopped_sensor_of_directions_is_named_with_its_channel(void **state)
+{
+    struct live *live = open_node_core();
+    uint8_t buffer[RHO_MESSAGE_DIRECTION_SCAN_MAX_SIZE];
+    size_t size;
+
+    (void)state;
+    for (int32_t round = 0; round < 10; round++) {
+        const struct rho_message_direction_scan scan = {.utime = START_US + round * ROUND_US,
+                                                        .scan = round,
+                                                        .sensor_id = 7,
+                                                        .sigma_rad = 0.01f,
+                                                        .sigma_elevation_rad = 0.01f};
+
+        assert_int_equal(rho_message_direction_scan_encode(&scan, buffer, sizeof buffer, &size),
+                         RHO_OK);
+        node_core_take_message(live->core, RHO_MESSAGE_DIRECTION_SCAN_CHANNEL "7", buffer, size,
+                               scan.utime);
+        run_rounds(live, round, round + 1, WELL);
+    }
+    run_rounds(live, 10, 40, WELL);
+    number_between(live->text,
+                   "rhotrack: sensor 7 is silent: nothing on RHO_BEARINGS_7 or RHO_DIRECTIONS_7 "
+                   "for ",
+                   " s\n");
+    close_node_core(live);
+}
+
 /*
  * A sensor of a single scan, which anybody may have forged, causes no warning when it falls silent.
  */
@@ -355,6 +384,7 @@ int main(void)
         cmocka_unit_test(a_sensor_no_longer_biased_is_trusted_again),
         cmocka_unit_test(a_sensor_that_sees_nothing_is_warned_of),
         cmocka_unit_test(a_stopped_sensor_is_reported_silent),
+        cmocka_unit_test(a_stopped_sensor_of_directions_is_named_with_its_channel),
         cmocka_unit_test(a_sensor_of_a_single_scan_is_not_warned_of),
         cmocka_unit_test(learned_values_are_sent_of_one_sensor_at_a_time),
         cmocka_unit_test(lives_of_tracks_are_sent_with_each_status),

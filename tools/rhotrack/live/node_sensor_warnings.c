@@ -12,7 +12,10 @@
 #define SHARE_LOW 0.3f
 #define US_PER_S 1e6
 
-/* Channel prefix of a sensor's kind, which tells sensors of one number apart. */
+/*
+ * Channel prefix of a sensor's kind, which tells sensors of one number apart. Bearings may be on
+ * the channel of directions as well.
+ */
 static const char *sensor_channel_prefix(const struct rho_message_sensor *sensor)
 {
     return sensor->kind == RHO_MESSAGE_SENSOR_PLOTS   ? RHO_MESSAGE_PLOT_SCAN_CHANNEL
@@ -52,8 +55,14 @@ static void print_suspect_sensor(const struct rho_message_sensor *sensor, FILE *
 
 static void print_silent_sensor(const struct rho_message_sensor *sensor, FILE *to)
 {
-    fprintf(to, "rhotrack: sensor %d is silent: nothing on %s%d for %.0f s\n", sensor->sensor_id,
-            sensor_channel_prefix(sensor), sensor->sensor_id, sensor->heard_age_us / US_PER_S);
+    const int id = sensor->sensor_id;
+
+    fprintf(to, "rhotrack: sensor %d is silent: nothing on %s%d", id, sensor_channel_prefix(sensor),
+            id);
+    if (sensor->kind == RHO_MESSAGE_SENSOR_BEARINGS) {
+        fprintf(to, " or %s%d", RHO_MESSAGE_DIRECTION_SCAN_CHANNEL, id);
+    }
+    fprintf(to, " for %.0f s\n", sensor->heard_age_us / US_PER_S);
 }
 
 static void print_health_change(const struct node_sensor *before,
