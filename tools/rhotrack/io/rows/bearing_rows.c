@@ -53,10 +53,7 @@ static size_t encode_bearing_scan_part(const struct rows_part *part, uint8_t *bu
     const double *head = rows_scan_first_row_cells(part);
     const double *first = part->count ? rows_part_cells(part, 0) : head;
     struct rho_message_bearing_scan message = {
-        .utime = part->scan->utime,
-        .scan = part->scan->head.scan,
-        .epoch = part->scan->head.epoch,
-        .sensor_id = (int16_t)part->scan->head.sensor_id,
+        ROWS_SENSOR_FIELDS(part),
         .sensor_x_m = rows_float_or_zero(head[SENSOR_X_M]),
         .sensor_y_m = rows_float_or_zero(head[SENSOR_Y_M]),
         .sigma_rad = rows_float_or_zero(first[SIGMA_RAD]),
@@ -105,10 +102,7 @@ static size_t encode_direction_scan_part(const struct rows_part *part, uint8_t *
     const double *head = rows_scan_first_row_cells(part);
     const double *first = part->count ? rows_part_cells(part, 0) : head;
     struct rho_message_direction_scan message = {
-        .utime = part->scan->utime,
-        .scan = part->scan->head.scan,
-        .epoch = part->scan->head.epoch,
-        .sensor_id = (int16_t)part->scan->head.sensor_id,
+        ROWS_SENSOR_FIELDS(part),
         .sensor_x_m = rows_float_or_zero(head[SENSOR_X_M]),
         .sensor_y_m = rows_float_or_zero(head[SENSOR_Y_M]),
         .sensor_z_m = rows_float_or_zero(head[SENSOR_Z_M]),

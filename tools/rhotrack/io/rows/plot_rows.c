@@ -94,10 +94,7 @@ static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffe
 {
     const double *head = rows_scan_first_row_cells(part);
     struct rho_message_plot_scan message = {
-        .utime = part->scan->utime,
-        .scan = part->scan->head.scan,
-        .epoch = part->scan->head.epoch,
-        .sensor_id = (int16_t)part->scan->head.sensor_id,
+        ROWS_SENSOR_FIELDS(part),
         .kind = (int8_t)plot_scan_kind(part->count ? rows_part_cells(part, 0) : head),
         .part = part->part,
         .num_parts = part->scan->num_parts,

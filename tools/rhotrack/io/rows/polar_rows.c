@@ -89,10 +89,7 @@ static struct rho_message_polar_scan message_scan_of(const struct rows_part *par
     const double *first = part->count ? rows_part_cells(part, 0) : head;
 
     return (struct rho_message_polar_scan){
-        .utime = part->scan->utime,
-        .scan = part->scan->head.scan,
-        .epoch = part->scan->head.epoch,
-        .sensor_id = (int16_t)part->scan->head.sensor_id,
+        ROWS_SENSOR_FIELDS(part),
         .has_elevation = !rows_is_cell_empty(first[ELEVATION_RAD]),
         .has_range_rate = !rows_is_cell_empty(first[RANGE_RATE_MPS]),
         .part = part->part,

@@ -203,6 +203,11 @@ double *rows_begin_message(struct rows *rows, struct rows_message *message, cons
         .scan = (message).scan                                                                     \
     }
 
+/* The fields that begin a message of a part of a sensor's scan: the reverse of ROWS_SENSOR_KEY. */
+#define ROWS_SENSOR_FIELDS(part)                                                                   \
+    .utime = (part)->scan->utime, .scan = (part)->scan->head.scan,                                 \
+    .epoch = (part)->scan->head.epoch, .sensor_id = (int16_t)(part)->scan->head.sensor_id
+
 /* Adds the row of an element, dt_us after the message's utime. */
 double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us);
 
