@@ -56,6 +56,13 @@ check 'elevations are tracked' exits 0
 run track up.lcm --config up/scenario.ini -o log.csv
 check 'tracks of a log of directions are those of the file' cmp up.csv log.csv
 check 'and there are some' grep -q confirmed log.csv
+# the truth is at 3350 m, climbing by 5 m/s
+run initiate up/bearings.csv --config up/scenario.ini
+check 'initiate: heights of elevations' awk -F, \
+    'NR > 1 && $11 > 3300 && $11 < 3400 && $12 > 3 && $12 < 7 { n++ } END { exit n != 1 }' stdout
+run initiate passive-two/bearings.csv
+check 'and none of bearings alone' \
+    awk -F, 'NR > 1 && $11 $12 != "" { exit 1 } END { exit NR < 2 }' stdout
 check 'runs differ' bash -c '! cmp -s runs/run-0000/bearings.csv runs/run-0001/bearings.csv'
 
 # ---- good files ----
@@ -200,7 +207,7 @@ for scenario in passive-two passive-three; do
         $scenario/truth.csv
 done
 check 'columns' matches "$(head -n 1 found.csv)" \
-    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score,z_m,vz_mps'
 run initiate passive-three/bearings.csv --method passive --json
 check 'JSON' json stdout '(
     (o["method"], o["scans"], o["sensors"], o["tracks"]) == ("passive", 8, 3, 2) and

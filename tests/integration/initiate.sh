@@ -48,7 +48,7 @@ facts 'what JSON must hold' "$table3" nht \
 # ---- tracks ----
 run initiate table1.csv --method iht
 check 'columns' matches "$(head -n 1 stdout)" \
-    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score,z_m,vz_mps'
 are_table1() {
     awk -F, 'NR > 1 {
             n++

@@ -49,7 +49,7 @@ run initiate sharp/bearings.csv --method passive-paper
 cp stdout lines.csv
 check 'passive-paper: lines along every path' lines_are_near lines.csv sharp/truth.csv
 check 'passive-paper: columns' matches "$(head -n 1 lines.csv)" \
-    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score,z_m,vz_mps'
 check 'passive-paper: votes of 8 scans, at least 4 of 5' \
     awk -F, \
     'NR > 1 && ($10 < 7 || $10 > 8 || $9 < $10 || $2 != 70) { exit 1 } END { exit NR < 2 }' \

@@ -334,6 +334,9 @@ awk -F, 'NR == 1 { print $0 ",z_m,vx_mps,vy_mps,vz_mps" } NR > 1 {
     print $0 ",3000," (NR % 2 ? "-150,100" : "200,50") ",0" }' plots.csv >full.csv
 run track full.csv
 check 'height is tracked' awk -F, '$1 == "110.000000" && ($6 < 2970 || $6 > 3030) { exit 1 }' stdout
+run initiate full.csv
+check 'and initiated' \
+    awk -F, 'NR > 1 && ($11 < 2970 || $11 > 3030) { exit 1 } END { exit NR < 2 }' stdout
 
 # ---- initiate ----
 run initiate plots.csv
@@ -341,7 +344,7 @@ cp stdout initiated.csv
 check 'initiate says which scans it takes' matches "$(cat stderr)" \
     'rhotrack: the last 7 of 12 scans are used'
 check 'columns of initiated tracks' matches "$(head -n 1 initiated.csv)" \
-    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score,z_m,vz_mps'
 both_found() {
     awk -F, 'NR > 1 {
             n++

@@ -14,7 +14,7 @@ from .settings import Settings, settings_of
 
 FOUND = np.dtype([("track_id", "u4"), ("t_s", "f8"), ("x_m", "f4"), ("y_m", "f4"),
                   ("vx_mps", "f4"), ("vy_mps", "f4"), ("rho_m", "f4"), ("theta_rad", "f4"),
-                  ("scans", "u2"), ("score", "f4")])
+                  ("scans", "u2"), ("score", "f4"), ("z_m", "f4"), ("vz_mps", "f4")])
 PLOT = dtype_of("rho_plot")
 PEAK = dtype_of("rho_accumulator_peak")
 LINE = np.dtype([("rho_m", "f4"), ("theta_rad", "f4"), ("votes", "f8")])
@@ -30,15 +30,19 @@ class Accumulator(NamedTuple):
     rho_m: np.ndarray
 
 
+def heights(track: Any, are_known: bool) -> tuple[float, float]:
+    return (track.z_m, track.vz_mps) if are_known else (np.nan, np.nan)
+
+
 class Initiator:
     """Tracks of the last scans of plots, as `rhotrack initiate` finds them.
 
     method: "kernel", the tracker's own, or "ht", "mht", "iht", "nht", the papers'. find returns a
     structured array with the columns of the program's file, best first: track_id, t_s, x_m, y_m,
     vx_mps, vy_mps (at the last scan; NaN: fewer than two scans voted), rho_m, theta_rad, scans,
-    score (nats for kernel, else votes). work has the counts of the last search, as the library's
-    struct names them (rho_initiator_work, or rho_hough_result for the papers' methods), and
-    search_us, its processor time.
+    score (nats for kernel, else votes), z_m, vz_mps (NaN: heights are not known). work has the
+    counts of the last search, as the library's struct names them (rho_initiator_work, or
+    rho_hough_result for the papers' methods), and search_us, its processor time.
     """
 
     def __init__(self, settings: Settings | None = None, method: str = "kernel",
@@ -114,7 +118,7 @@ class Initiator:
             line = lib.rho_angle_line(one.x_m, one.y_m, one.vx_mps, one.vy_mps)
             found[i] = (i + 1, held[-1].scan.time_us / 1e6, one.x_m, one.y_m, one.vx_mps,
                         one.vy_mps, line.rho_m, line.theta_rad, one.hits,
-                        np.float32(one.score_mnat) / np.float32(1000))
+                        np.float32(one.score_mnat) / np.float32(1000), *heights(one, one.has_z))
         return found
 
     def _hough(self, points: _Points, **changes: Any) -> Any:
@@ -150,7 +154,7 @@ class Initiator:
         peaks = self._peaks(hough, points, PEAKS_MAX)
         track = ffi.new("struct rho_hough_track *")
         found = np.full(len(peaks), np.array(
-            (0, points.time_us / 1e6, *[np.nan] * 6, 0, 0), FOUND))
+            (0, points.time_us / 1e6, *[np.nan] * 6, 0, 0, np.nan, np.nan), FOUND))
         for i, peak in enumerate(peaks):
             theta, rho = int(peak["theta_cell"]), int(peak["rho_cell"])
             must_succeed(lib.rho_hough_track(hough, points.struct, theta, rho, 0.0, track),
@@ -253,7 +257,8 @@ class Passive:
             line = lib.rho_angle_line(one.x_m, one.y_m, one.vx_mps, one.vy_mps)
             rows.append((one.x_m, one.y_m, one.vx_mps, one.vy_mps, line.rho_m, line.theta_rad,
                          bin(one.scans).count("1"),
-                         np.float32(one.score_mnat) / np.float32(1000)))
+                         np.float32(one.score_mnat) / np.float32(1000),
+                         *heights(one, not one.is_level)))
         return rows
 
     def _lines(self) -> list[tuple]:
@@ -261,7 +266,7 @@ class Passive:
         for one in self._search.lines[0:self._search.num_lines]:
             state = (one.x_m, one.y_m, one.vx_mps, one.vy_mps)
             rows.append((*(state if one.has_state else [np.nan] * 4), one.rho_m, one.theta_rad,
-                         bin(one.scans).count("1"), one.votes))
+                         bin(one.scans).count("1"), one.votes, np.nan, np.nan))
         return rows
 
     def accumulators(self, frames: Any) -> dict[tuple[int, int], Accumulator]:

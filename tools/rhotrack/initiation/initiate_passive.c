@@ -40,7 +40,10 @@ static void write_found_tracks(const struct rho_passive *passive, int64_t time_u
                                 .theta_rad = line.theta_rad,
                                 .scans = rho_count_bits(track->scans),
                                 .sensor_pairs = rho_passive_sensor_pairs(track),
-                                .score = (double)((float)track->score_mnat / 1000.0f)};
+                                .score = (double)((float)track->score_mnat / 1000.0f),
+                                .has_height = !track->is_level,
+                                .z_m = track->z_m,
+                                .vz_mps = track->vz_mps};
 
         initiated_output_add_row(found, &row);
     }

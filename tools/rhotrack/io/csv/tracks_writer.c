@@ -95,7 +95,7 @@ void tracks_write_report(FILE *file, const struct rho_report *report, struct tra
 
 void initiated_write_header(FILE *file)
 {
-    fputs("track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score\n", file);
+    fputs("track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score,z_m,vz_mps\n", file);
 }
 
 void initiated_write_row(FILE *file, const struct initiated *row)
@@ -114,6 +114,12 @@ void initiated_write_row(FILE *file, const struct initiated *row)
     write_comma_and_shortest_float(file, row->theta_rad);
     fprintf(file, ",%u", row->scans);
     write_comma_and_shortest_float(file, (float)row->score);
+    if (row->has_height) {
+        write_comma_and_shortest_float(file, row->z_m);
+        write_comma_and_shortest_float(file, row->vz_mps);
+    } else {
+        fputs(",,", file);
+    }
     fputc('\n', file);
 }
 
@@ -133,5 +139,8 @@ struct initiated initiated_from_candidate(unsigned track_id, int64_t time_us,
                               .rho_m = line.rho_m,
                               .theta_rad = line.theta_rad,
                               .scans = candidate->hits,
-                              .score = (double)((float)candidate->score_mnat / 1000.0f)};
+                              .score = (double)((float)candidate->score_mnat / 1000.0f),
+                              .has_height = candidate->has_z,
+                              .z_m = candidate->z_m,
+                              .vz_mps = candidate->vz_mps};
 }

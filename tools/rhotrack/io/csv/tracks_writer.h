@@ -38,7 +38,7 @@ void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report
 void tracks_write_report(FILE *file, const struct rho_report *report,
                          struct tracks_columns columns);
 
-/* Writes the header track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score. */
+/* Writes the header track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score,z_m,vz_mps. */
 void initiated_write_header(FILE *file);
 
 /* One initiated track. */
@@ -51,6 +51,8 @@ struct initiated {
     unsigned scans;        /* number of scans that voted */
     unsigned sensor_pairs; /* number of pairs of passive sensors that confirm it; 0 for plots */
     double score;          /* score in nats, or votes */
+    bool has_height;       /* false: the columns z_m and vz_mps are empty */
+    float z_m, vz_mps;
 };
 void initiated_write_row(FILE *file, const struct initiated *row);
 
