@@ -247,6 +247,21 @@ done
 check 'one line of summary' matches "$(run track long/bearings.csv -o tracks.csv; cat stderr)" \
     'rhotrack: 20 scans, * plots, 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; '\
 '* us a scan, * at most'
+# hides COMMAND INPUT OPTIONS...
+hides() {
+    run "$@" --set v_max_mps=300 -o turns.csv
+    exits 0 && grep -q '^rhotrack: looks each 10 s hide turns: with accel_max_mps2=20 a target at '\
+'v_max_mps=300 turns by 38 degrees ' stderr
+}
+does_not_hide() { ! hides "$@" && exits 0 && ! grep -q turn stderr; }
+for command in track initiate; do
+    check "$command: turns that were told are hidden" hides $command long/bearings.csv \
+        --set accel_max_mps2=20
+    check "$command: gentle turns are not" does_not_hide $command long/bearings.csv \
+        --set accel_max_mps2=10
+    check "$command: of turns that nobody told nothing is said" does_not_hide $command \
+        long/bearings.csv
+done
 check 'tracks from the third frame on' matches "$(sed -n 2p tracks.csv | cut -d, -f1,3)" \
     '20.000000,confirmed'
 run track long/bearings.csv --config long/scenario.ini --covariance -o tracks.csv

@@ -28,6 +28,12 @@ check 'one line of summary' matches "$(cat summary)" \
     'rhotrack: 12 scans, 24 plots, 2 tracks confirmed; '\
 'lost: 0 invalid, 0 stale, 0 no room; * us a scan, * at most'
 
+for command in track initiate; do
+    run $command plots.csv --set accel_max_mps2=20 --set v_max_mps=300
+    check "$command: looks that hide the turns that were told" grep -q \
+        '^rhotrack: looks each 10 s hide turns: with accel_max_mps2=20 ' stderr
+done
+
 # Column numbers: 1 t_s, 2 track_id, 3 status, 4 x, 5 y, 6 z, 7 vx, 8 vy, 13 sigma_m, 15 hits, 16
 # misses, 18 plot.
 last_scan_is_true() {

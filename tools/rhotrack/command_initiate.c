@@ -14,6 +14,7 @@
 #include "io/scans/bearing_reader.h"
 #include "io/scans/plot_reader.h"
 #include "io/turns/merged_sectors.h"
+#include "pipeline/hidden_turns.h"
 #include "rhotrack/tracker.h"
 
 struct initiation_run {
@@ -65,6 +66,10 @@ static void search_batch_by_kernel(struct initiation_run *batch, const struct co
         const struct revolution *turn = &revolutions.list[i];
 
         push_scan_to_initiator(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
+    }
+    if (revolutions.count > 0) {
+        hidden_turns_print(batch->time_us - revolutions.list[0].scan.time_us, revolutions.count,
+                           &line->parameters, stderr);
     }
     revolutions_free(&revolutions);
     start_us = monotonic_clock_us();

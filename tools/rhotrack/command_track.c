@@ -20,6 +20,7 @@
 #include "io/scans/merged_inputs.h"
 #include "io/scans/plot_reader.h"
 #include "next_command.h"
+#include "pipeline/hidden_turns.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
@@ -309,6 +310,21 @@ static void print_summary(const struct tracking *tracking,
             tracking->max_us);
 }
 
+/* Interval of the sensor that looks most often; 0: none has looked twice. */
+static int64_t shortest_interval_us(const struct rho_tracker *tracker)
+{
+    double shortest_s = 0;
+
+    for (uint32_t i = 0; i < tracker->num_rows; i++) {
+        const double interval_s = (double)tracker->sensors[i].pace.interval_s;
+
+        if (interval_s > 0 && !(shortest_s > 0 && shortest_s < interval_s)) {
+            shortest_s = interval_s;
+        }
+    }
+    return llround(1e6 * shortest_s);
+}
+
 static cJSON *plot_fates_json(const struct rho_tracker_counters *counters)
 {
     cJSON *object = cJSON_CreateObject();
@@ -501,6 +517,8 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
     struct merged_inputs_counts counts = merged_inputs_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
+    hidden_turns_print(shortest_interval_us(&tracking->pipeline.node->tracker), 2,
+                       &line->parameters, stderr);
     if (tracking->pipeline.node->tracker.counters.tracks_confirmed == 0 && counts.frames == 0) {
         no_tracks_reason_print(&tracking->seen, &tracking->pipeline.node->tracker,
                                &line->parameters, stderr);

@@ -8,6 +8,7 @@
 
 #include "base/common.h"
 #include "io/scans/bearing_reader.h"
+#include "pipeline/hidden_turns.h"
 #include "pipeline/pipeline.h"
 
 /* No smaller than the distance of two sensors at any time. */
@@ -75,6 +76,7 @@ static void push_and_count_frame(struct last_bearings *batch, const struct beari
         batch->num_lost += fates[i] != RHO_FATE_HELD;
     }
     free(fates);
+    batch->first_us = batch->frames == 0 ? frame->time_us : batch->first_us;
     batch->frames++;
     batch->bearings += count;
     batch->time_us = frame->time_us;
@@ -117,6 +119,7 @@ struct last_bearings last_bearings_search_and_close(const struct bearings_search
         fprintf(stderr, "rhotrack: %" PRIu64 " bearings beyond %d a scan are left out\n",
                 batch.num_lost, RHO_MAX_BEARINGS);
     }
+    hidden_turns_print(batch.time_us - batch.first_us, batch.frames, parameters, stderr);
     bearing_reader_close(reader);
     return batch;
 }

@@ -21,7 +21,7 @@ struct bearings_search {
 struct last_bearings {
     /* num_lost: bearings that exceeded a capacity of the library */
     uint64_t frames, bearings, num_lost;
-    int64_t time_us; /* time of the last frame */
+    int64_t first_us, time_us; /* times of the first and the last frame */
     int64_t wall_us;
 };
 
