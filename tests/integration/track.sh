@@ -34,6 +34,12 @@ for command in track initiate; do
         '^rhotrack: looks each 10 s hide turns: with accel_max_mps2=20 ' stderr
 done
 
+awk 'BEGIN { print "t_s,x_m,y_m"; for (t = 0; t < 200; t += 5) print t "," 100 * t + t * t ",0" }' \
+    >faster.csv
+run track faster.csv --set v_max_mps=300
+check 'a track that ends since it has become too fast' grep -q \
+    ', 1 tracks ended, faster than v_max_mps=300;' stderr
+
 # Column numbers: 1 t_s, 2 track_id, 3 status, 4 x, 5 y, 6 z, 7 vx, 8 vy, 13 sigma_m, 15 hits, 16
 # misses, 18 plot.
 last_scan_is_true() {

@@ -286,6 +286,10 @@ static void print_summary(const struct tracking *tracking,
     if (counts->frames_incomplete > 0 && counts->frames_incomplete < counts->frames) {
         fprintf(stderr, ", %" PRIu64 " frames miss a sensor", counts->frames_incomplete);
     }
+    if (counters->tracks_too_fast > 0) {
+        fprintf(stderr, ", %" PRIu32 " tracks ended, faster than v_max_mps=%g",
+                counters->tracks_too_fast, parameters->value[PARAMETER_V_MAX_MPS]);
+    }
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
