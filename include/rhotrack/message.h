@@ -784,7 +784,7 @@ struct rho_message_status {
     int32_t messages_wrong_type;
     /* messages beyond what one channel may send in a second; range 0 .. 2147483647 */
     int32_t messages_flooded;
-    /* frames of bearings in which a sensor is missing; range 0 .. 2147483647 */
+    /* 0: bearings are no longer put into frames; range 0 .. 2147483647 */
     int32_t frames_incomplete;
     /* scans that were stepped with parts missing; range 0 .. 2147483647 */
     int32_t scans_incomplete;

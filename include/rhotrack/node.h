@@ -127,8 +127,8 @@ struct rho_node_counters {
     uint32_t restarts;
     /* scans stepped before hold_us had passed, because another scan needed their room */
     uint32_t scans_early;
-    uint32_t scans_refused;  /* scans that the tracker refused, or whose sensor it refused */
-    uint32_t plots_refused;  /* plots of scans whose sensor the tracker refused */
+    uint32_t scans_refused; /* scans that the tracker refused, or whose sensor it refused */
+    uint32_t plots_refused; /* plots of scans whose sensor the tracker refused */
     /* scans of bearings whose sensor has no room beside the others, or is too far from them */
     uint32_t bearings_refused;
     uint32_t sensors_refused; /* descriptions of sensors that the tracker refused */
@@ -355,8 +355,9 @@ RHO_MUST_CHECK enum rho_status rho_node_step_bearings(struct rho_node *node,
 
 /*
  * Number of messages of the last rho_node_next, rho_node_step_scan or rho_node_step_bearings:
- * answers to an operator; after a step tracks in parts, peaks, bodies in parts where the tracker estimates
- * them, and events of zones, if any. Cost: with bodies, that of rho_publish_num_body_parts.
+ * answers to an operator; after a step tracks in parts, peaks, bodies in parts where the tracker
+ * estimates them, and events of zones, if any. Cost: with bodies, that of
+ * rho_publish_num_body_parts.
  */
 uint16_t rho_node_num_messages(const struct rho_node *node);
 

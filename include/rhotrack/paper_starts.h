@@ -104,8 +104,8 @@ struct rho_hough_points rho_paper_starts_points(const struct rho_paper_starts *s
 
 /*
  * Starts tracks from bearings: unclaimed ones go into the paper's batch, and once each sensor has
- * looked, each line that all pairs of sensors confirm starts a track. The track's covariance is that of the fit
- * through the line's crossings, by their scatter. Errors: NULL, STATE, and those of
+ * looked, each line that all pairs of sensors confirm starts a track. The track's covariance is
+ * that of the fit through the line's crossings, by their scatter. Errors: NULL, STATE, and those of
  * rho_passive_paper_push. Cost: rho_passive_paper_search of a full batch. Stack: 4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper,

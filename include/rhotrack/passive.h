@@ -166,13 +166,16 @@ void rho_passive_config_default(struct rho_passive_config *config);
 RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size,
                                                 const struct rho_passive_config *config);
 
-/* Status of a push of the frame: NULL, STATE (not initialised), or that of rho_batch_accepts. */
+/*
+ * Status of a push of the frame: NULL, STATE (not initialised), or that of rho_batch_accepts.
+ * Stack: 90 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_passive_accepts(const struct rho_passive *passive,
                                                    const struct rho_frame *frame);
 
 /*
  * Adds a frame of bearings to the batch by rho_batch_push, and discards the tracks of the last
- * search. Errors: those of rho_batch_push. Stack: 200 bytes.
+ * search. Errors: those of rho_batch_push. Stack: 220 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
                                                 const struct rho_frame *frame, uint8_t *fates);

@@ -30,7 +30,7 @@
  * Out of     A skipped number may come after all, behind newer ones. Where nothing newer has gone
  * sequence   out, its scan takes its place in the order of time. Otherwise it goes out behind the
  *            newer scans, late_max_us at most, for a tracker that takes out-of-sequence scans;
- *            bearings do not, as their frames are over. Such a scan does not move its sensor on. No
+ *            late bearings are not taken. Such a scan does not move its sensor on. No
  *            other scan waits for it, except while its parts are coming or for the number before
  *            it. It only takes free room, for one scan of a sensor at a time while parts are
  *            missing, and gives way to every scan in sequence: then it is dropped.

@@ -514,7 +514,8 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
  *
  *     support = sum of p r      shared = sum of p (1 - r)      clutter = 1 - sum of p
  *
- * are the truth, indeterminacy and falsity of neutrosophic sets, and add up to 1. In a scan in parts (RHO_CLAIMS_BEYOND) of the last part.
+ * are the truth, indeterminacy and falsity of neutrosophic sets, and add up to 1. In a scan
+ * in parts (RHO_CLAIMS_BEYOND) they are those of the last part.
  */
 struct rho_tracker_evidence {
     float support; /* probability of a plot that is this track's alone */

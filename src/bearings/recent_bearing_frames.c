@@ -110,8 +110,7 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
             return RHO_ERROR_VALUE;
         }
         const unsigned s = find_sensor(batch, scan->sensor_id, frame->time_us);
-        const int is_known = s < batch->num_sensors &&
-                             is_heard(&batch->sensors[s], frame->time_us);
+        const int is_known = s < batch->num_sensors && is_heard(&batch->sensors[s], frame->time_us);
         if (is_known && batch->sensors[s].looked_us == frame->time_us) {
             return RHO_ERROR_STATE;
         }
@@ -147,7 +146,8 @@ static float longest_interval_s(const struct rho_batch *batch)
 static int has_looks_of_all(const struct rho_batch *batch, unsigned scan)
 {
     unsigned s = 0;
-    while (s < batch->num_sensors && (batch->was_seen[scan][s] || !is_heard(&batch->sensors[s], batch->newest_us))) {
+    while (s < batch->num_sensors &&
+           (batch->was_seen[scan][s] || !is_heard(&batch->sensors[s], batch->newest_us))) {
         s++;
     }
     return s == batch->num_sensors;

@@ -113,8 +113,7 @@ void rho_node_settings_adopt(struct rho_node *node, const struct rho_settings *s
 /* The chain of a step (node.h); is_live: the scan came as messages. */
 enum rho_status rho_node_chain_scan(struct rho_node *node, const struct rho_scan *scan,
                                     int is_live);
-enum rho_status rho_node_chain_bearings(struct rho_node *node,
-                                        const struct rho_bearing_scan *scan);
+enum rho_status rho_node_chain_bearings(struct rho_node *node, const struct rho_bearing_scan *scan);
 
 /* All windows but the first become free, and the first has no sensor. */
 enum rho_status rho_node_windows_init(struct rho_node *node,

@@ -169,8 +169,7 @@ static int admit_found_track(struct step *step, uint32_t heir_id, const struct r
         rho_track_free_hypotheses(&tracker->tracks[row], &step->look.model);
     }
     if (rho_track_start_estimate(&track, track_id, estimate, step->look.time_us, sensor_id,
-                                 found->hits, &step->look.model,
-                                 score_mnat) != RHO_OK) {
+                                 found->hits, &step->look.model, score_mnat) != RHO_OK) {
         if (row < RHO_MAX_TRACKS) {
             rho_step_end_track(step, row);
         }

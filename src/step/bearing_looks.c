@@ -59,8 +59,7 @@ static void validate_bearings(struct rho_tracker *tracker, const struct rho_look
 {
     for (uint32_t i = 0; i < look->num_gated; i++) {
         const struct rho_bearing *bearing = &look->bearings->bearings[i];
-        int is_valid = rho_bearing_is_valid(bearing) &&
-                       bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
+        int is_valid = rho_bearing_is_valid(bearing) && bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
                        bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
         if (is_valid && !rho_coverage_holds_bearing(look->sensor, bearing->bearing_rad,
                                                     BEARING_SIGMAS * bearing->sigma_rad)) {

@@ -238,8 +238,7 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     const uint32_t most = num_with_fates(report);
     struct rho_bearing_scan held = *scan;
     held.num_bearings = held.num_bearings < most ? held.num_bearings : most;
-    held.num_bearings =
-        held.num_bearings < RHO_MAX_BEARINGS ? held.num_bearings : RHO_MAX_BEARINGS;
+    held.num_bearings = held.num_bearings < RHO_MAX_BEARINGS ? held.num_bearings : RHO_MAX_BEARINGS;
     const uint32_t num = held.num_bearings, num_held = hold_unclaimed(report->fates, num);
     held.num_bearings = num_held > 0 ? num : 0; /* tracks claim all, but the sensor has looked */
     const struct rho_frame frame = {.time_us = scan->time_us, .scans = &held, .num_scans = 1};

@@ -36,8 +36,8 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
 void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 
 /*
- * bearing_looks.c: opens the look of a scan of bearings; claims and updates by it. *sensor: gets its
- * sensor; owners: RHO_MAX_BEARINGS, get the tracks of the bearings that are claimed.
+ * bearing_looks.c: opens the look of a scan of bearings; claims and updates by it. *sensor: gets
+ * its sensor; owners: RHO_MAX_BEARINGS, get the tracks of the bearings that are claimed.
  */
 void rho_step_take_bearings(struct step *step, struct rho_sensor *sensor,
                             struct rho_batch_owner *owners);

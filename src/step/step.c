@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * step: a scan of plots goes through the phases of a step, as one look; a scan beyond RHO_MAX_PLOTS
- * as several. bearing_step.c does the same with bearings: a build that takes none has nothing of it.
+ * as several. bearing_step.c does the same with bearings: a build that takes none has nothing of
+ * it.
  */
 #include "phases.h"
 #include "rhotrack/detail/angle.h"

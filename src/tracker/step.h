@@ -11,8 +11,8 @@ struct step {
     struct rho_report *report;
     struct rho_passive *passive;  /* starts tracks from bearings; NULL: none, or plots */
     struct rho_look look;         /* the look that is claimed now */
-    const struct rho_scan *whole;  /* with bodies: the scan whose plots were grouped */
-    struct rho_scan *grouped;      /* with bodies: room for a scan of a plot for each group */
+    const struct rho_scan *whole; /* with bodies: the scan whose plots were grouped */
+    struct rho_scan *grouped;     /* with bodies: room for a scan of a plot for each group */
     struct rho_work work;
     float miss_nat;   /* evidence that a miss takes from a track */
     float needed_nat; /* evidence that a new track needs to be confirmed; 0: none */

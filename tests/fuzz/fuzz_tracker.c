@@ -1671,9 +1671,9 @@ static void make_refused_calls(struct script *script)
         status = rho_tracker_step(&empty, initiator, &scan, report);
         break;
     case 6:
-        status = rho_tracker_step_bearings(
-            tracker, &empty_passive, &(struct rho_bearing_scan){.time_us = RHO_LIMIT_TIME_US},
-            report);
+        status = rho_tracker_step_bearings(tracker, &empty_passive,
+                                           &(struct rho_bearing_scan){.time_us = RHO_LIMIT_TIME_US},
+                                           report);
         break;
     case 7:
         status = rho_tracker_step_bearings(tracker, NULL, &no_bearings, report);

@@ -83,7 +83,7 @@ sees() { # file, sed command that seeds the fault, what it says, check...
     grep -q -- "$3" said || { cat said; return 1; }
 }
 check 'seen: a header that lacks an include' \
-    sees frames.h '/#include/d' 'rhotrack/frames.h does not compile alone as c99' compile_alone c99
+    sees zones.h '/#include/d' 'rhotrack/zones.h does not compile alone as c99' compile_alone c99
 check 'seen: a header without a guard' \
     sees udpm.h '/RHOTRACK_UDPM_H/d; $d' 'udpm.h does not compile alone as c11' compile_alone c11
 check 'seen: C that C++ does not know' \

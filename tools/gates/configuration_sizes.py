@@ -65,7 +65,6 @@ NODE = {
     "report": "sizeof(struct rho_report)",
     "scan_assembler": "sizeof(struct rho_scan_assembler)",
     "passive": "RHO_NODE_HAS_PASSIVE * sizeof(struct rho_passive)",
-    "frames": "RHO_NODE_HAS_BEARINGS * sizeof(struct rho_frames)",
     "zones": "(RHO_MAX_ZONES > 0) * sizeof(struct rho_zones)",
 }
 LEAST = 512 # bytes from which a part is listed

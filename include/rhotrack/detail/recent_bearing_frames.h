@@ -5,8 +5,9 @@
  *
  * Each look has its own time and place: sensors may move, stand together, and look at times of
  * their own. A sensor keeps its index while it is heard; once it was silent for
- * RHO_LIMIT_OFFSET_US, another one may have it. A look goes into the newest row while that lacks its sensor; in a row that waits for
- * slower sensors it takes the place of its sensor's older look. Embedded in the initiators; usable alone.
+ * RHO_LIMIT_OFFSET_US, another one may have it. A look goes into the newest row while that lacks
+ * its sensor; in a row that waits for slower sensors it takes the place of its sensor's older look.
+ * Embedded in the initiators; usable alone.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -102,10 +103,10 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  *          or get INVALID (rho_bearing_is_valid) or NO_ROOM (beyond RHO_MAX_BEARINGS)
  *   owners NULL, or the tracks of the bearings in the same order: those with CLAIMED are stored too
  * Errors: NULL, STATE (older than the newest, or as old, of a sensor that is in it), CAPACITY (more
- * than RHO_MAX_PASSIVE_SENSORS that are heard), VALUE (a sensor twice in the frame, a sensor farther than apart_max_m
- * from another, or whose position is not a coordinate, a sector beyond one turn either way, a scan
- * more than RHO_LIMIT_OFFSET_US from its frame); nothing is changed. Cost: the bearings, and moving
- * the batch by a row. Stack: 190 bytes.
+ * than RHO_MAX_PASSIVE_SENSORS that are heard), VALUE (a sensor twice in the frame, a sensor
+ * farther than apart_max_m from another, or whose position is not a coordinate, a sector beyond one
+ * turn either way, a scan more than RHO_LIMIT_OFFSET_US from its frame); nothing is changed. Cost:
+ * the bearings, and moving the batch by a row. Stack: 210 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
                                               const struct rho_frame *frame, uint8_t *fates,

@@ -183,8 +183,8 @@ static void step_three_bearing_scans_and_expect_fates(uint32_t num_0, uint32_t n
                              i < RHO_MAX_BEARINGS ? RHO_FATE_HELD : RHO_FATE_NO_ROOM);
         }
         expect_newest_batch_frame_holds_held_and_ghosts(s, &look);
-        assert_int_equal(
-            report.fates_total[RHO_FATE_INVALID] + report.fates_total[RHO_FATE_GHOST], 0);
+        assert_int_equal(report.fates_total[RHO_FATE_INVALID] + report.fates_total[RHO_FATE_GHOST],
+                         0);
     }
 }
 
@@ -295,7 +295,7 @@ static void expect_refused_look(struct rho_passive *of, enum rho_status status)
     do {                                                                                           \
         fill_frame(&scene, scene_slot_of(12), &full);                                              \
         change;                                                                                    \
-        expect_refused_look(&passive, status);                                                    \
+        expect_refused_look(&passive, status);                                                     \
     } while (0)
 
 static void prepare_good_frame(void)

@@ -99,8 +99,8 @@ static void send_show_messages(struct node_core *core, enum rho_node_due done)
     const struct pipeline_show_output output = {core->events.context, core->events.send};
     const struct rho_node *node = core->pipeline.node;
 
-    pipeline_show_step(core->show, &core->pipeline, done == RHO_NODE_BEARINGS, node->step, node->epoch,
-                       node->now_us, &output);
+    pipeline_show_step(core->show, &core->pipeline, done == RHO_NODE_BEARINGS, node->step,
+                       node->epoch, node->now_us, &output);
 }
 
 /*

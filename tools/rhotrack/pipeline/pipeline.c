@@ -235,8 +235,8 @@ void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *fram
 {
     struct rho_report *report = &pipeline->node->report;
     struct frame_report of_frame = {.num_ended = 0};
-    const struct rho_bearing_scan **looks = must_calloc((size_t)frame->num_scans + 1,
-                                                        sizeof *looks);
+    const struct rho_bearing_scan **looks =
+        must_calloc((size_t)frame->num_scans + 1, sizeof *looks);
     uint32_t num_bearings = 0;
 
     for (uint32_t i = 0; i < frame->num_scans; i++) {

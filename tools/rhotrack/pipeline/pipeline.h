@@ -68,8 +68,9 @@ void pipeline_warn_shared_windows(const struct pipeline *pipeline, uint32_t shar
 /* Steps a scan completely; the result is in node->report. */
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);
 /*
- * Steps the looks of a frame of bearings, in the order of time. node->report is then the last one's,
- * with the fates of all bearings, in the frame's order, and the tracks that ended in any of them.
+ * Steps the looks of a frame of bearings, in the order of time. node->report is then the last
+ * one's, with the fates of all bearings, in the frame's order, and the tracks that ended in any of
+ * them.
  *   after_look  called after each step, with the context; NULL: nothing
  */
 void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame,
