@@ -81,7 +81,7 @@ static int score_bearing(const struct rho_look *look, const struct rho_track *tr
                          struct scored_bearing *at, float *gain_nat)
 {
     float density;
-    if (look->fates[i] != RHO_FATE_HELD ||
+    if (look->fates[i] == RHO_FATE_INVALID ||
         !rho_track_score_bearing(track, &look->model, weighed, i, &density, &at->variance_rad2)) {
         return 0;
     }
