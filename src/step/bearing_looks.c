@@ -121,35 +121,56 @@ struct gated_bearings {
     int is_claimed;    /* it is more probable than all else */
     float hit;         /* probability that one of them is the track's */
     float seeing;      /* share of targets that no other track's bearing covers */
-    float gain_nat;    /* ln of the likelihood of them all, or a miss, over that of clutter */
+    float gain_nat;    /* ln of the likelihood of what no other track explains, or a miss */
     float density_nat; /* ln of the density of the one of most weight */
 };
 
-/* Probability that a bearing is not the target's of the track that it was assigned. */
-static float free_share(const struct rho_tracker *tracker, unsigned row, uint32_t i)
+/* The two largest probabilities that a bearing is a track's, by the tracks alone, and their rows. */
+struct bearing_claims {
+    struct bearing_claim {
+        float most, next;
+        unsigned row;
+    } of[RHO_MAX_BEARINGS];
+};
+
+static void list_claims(const struct rho_tracker *tracker, struct bearing_claims *claims)
 {
     const struct rho_assignment *assignment = &tracker->assignment;
-    const int owner = assignment->column_row[i];
-    float own = 0.0f, sum = 1.0f;
-    if (owner < 0 || owner == (int)row) {
-        return 1.0f;
+    memset(claims, 0, sizeof *claims);
+    for (unsigned row = 0; row < assignment->num_rows; row++) {
+        float weight[RHO_MAX_GATE_PLOTS], sum = 1.0f;
+        for (unsigned k = 0; k < assignment->num_pairs[row]; k++) {
+            weight[k] = rho_exp(
+                rho_smaller(-0.001f * (float)assignment->pairs[row][k].cost, RHO_LOOK_LIMIT_NAT));
+            sum += weight[k];
+        }
+        for (unsigned k = 0; k < assignment->num_pairs[row]; k++) {
+            struct bearing_claim *claim = &claims->of[assignment->pairs[row][k].column];
+            const float share = tracker->tracks[row].visible * weight[k] / sum;
+            claim->next = rho_larger(claim->next, rho_smaller(share, claim->most));
+            claim->row = share > claim->most ? row : claim->row;
+            claim->most = rho_larger(claim->most, share);
+        }
     }
-    for (unsigned k = 0; k < assignment->num_pairs[owner]; k++) {
-        const struct rho_assignment_pair *pair = &assignment->pairs[owner][k];
-        const float weight = rho_exp(rho_smaller(-0.001f * (float)pair->cost, RHO_LOOK_LIMIT_NAT));
-        sum += weight;
-        own = pair->column == (int)i ? weight : own;
-    }
-    return 1.0f - tracker->tracks[owner].visible * own / sum;
+}
+
+/* Probability that a bearing is another track's. */
+static float rival_claim(const struct bearing_claims *claims, unsigned row, uint32_t i)
+{
+    const struct bearing_claim *claim = &claims->of[i];
+    return claim->row == row ? claim->next : claim->most;
 }
 
 /*
  * Weighs the bearings in a track's gate ("Bearings are weighed" in src/DESIGN.md, with these
  * letters). A bearing of more than half of W is claimed. Where another track's bearing lies, a
- * target may be behind it, and its miss says nothing.
+ * target may be behind it, and its miss says nothing; nor does a hit by what another track explains
+ * as well, though the estimate of the track that it was assigned takes it whole: else a ghost that
+ * takes the bearings of a track beside it would live by them.
  */
 static struct gated_bearings weigh_bearings(const struct rho_tracker *tracker,
-                                            const struct rho_look *look, unsigned row)
+                                            const struct rho_look *look,
+                                            const struct bearing_claims *claims, unsigned row)
 {
     const struct rho_bearing_scan *scan = look->bearings;
     const struct rho_track *track = &tracker->tracks[row];
@@ -160,21 +181,24 @@ static struct gated_bearings weigh_bearings(const struct rho_tracker *tracker,
             ? rho_exp(seen.log_miss)
             : 1.0f;
     const float pd_over_false = rho_exp(seen.log_pd - look->log_false_bearings);
-    float covered = 0.0f, hit = 0.0f, best = 0.0f;
+    float covered = 0.0f, hit = 0.0f, told = 0.0f, best = 0.0f;
     for (uint32_t i = 0; i < look->num_gated; i++) {
         struct scored_bearing at;
         float gain_nat;
         if (!score_bearing(look, track, &found.weighed, seen.log_pd, i, &at, &gain_nat)) {
             continue;
         }
-        const float left = free_share(tracker, row, i);
-        const float weight = left * rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
+        const float rival = rival_claim(claims, row, i);
+        const float left = tracker->assignment.column_row[i] == (int)row ? 1.0f : 1.0f - rival;
+        const float gain = rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
+        const float weight = left * gain;
         /* how near it is: its density over that of a bearing at the centre */
         const float log_centre = -0.5f * (RHO_LOG_TWO_PI + rho_log(at.variance_rad2));
         const float nearness = rho_exp(rho_smaller(at.log_density - log_centre, 0.0f));
-        covered = rho_larger(covered, (1.0f - left) * nearness);
+        covered = rho_larger(covered, rival * nearness);
         found.weighed.weight[i] = left * pd_over_false;
         hit += weight;
+        told += (1.0f - rival) * gain;
         if (weight > best) {
             best = weight;
             found.density_nat = at.log_density;
@@ -185,7 +209,7 @@ static struct gated_bearings weigh_bearings(const struct rho_tracker *tracker,
     const float sum = found.weighed.miss + hit;
     found.seeing = 1.0f - covered;
     found.hit = hit / sum;
-    found.gain_nat = rho_log(sum);
+    found.gain_nat = rho_log(found.weighed.miss + told);
     found.is_claimed = best > 0.5f * sum;
     if (found.is_claimed) {
         found.weighed.slope = rho_measurement_slope(scan, &scan->bearings[found.row]);
@@ -198,14 +222,14 @@ static struct gated_bearings weigh_bearings(const struct rho_tracker *tracker,
  * less than it states must not take it out on the tracks, nor keep them from being confirmed.
  */
 static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
-                     struct rho_tracker_sensor *row)
+                     const struct bearing_claims *claims, struct rho_tracker_sensor *row)
 {
     const struct rho_bearing_scan *scan = look->bearings;
     for (unsigned i = 0; row && !rho_look_is_full(look) && i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
         if (track->status != RHO_TRACK_FREE && rho_look_has_in_view(look, i) &&
             rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
-            const struct gated_bearings found = weigh_bearings(tracker, look, i);
+            const struct gated_bearings found = weigh_bearings(tracker, look, claims, i);
             rho_pd_count(row, track->visible * found.seeing, found.hit);
         }
     }
@@ -213,7 +237,8 @@ static void learn_pd(const struct rho_tracker *tracker, struct rho_look *look,
 }
 
 static void update_by_bearings(struct rho_tracker *tracker, const struct rho_look *look,
-                               struct rho_tracker_sensor *own, struct rho_batch_owner *owners)
+                               const struct bearing_claims *claims, struct rho_tracker_sensor *own,
+                               struct rho_batch_owner *owners)
 {
     float unclaimed = 0.0f;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
@@ -221,7 +246,7 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
         if (track->status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
             continue;
         }
-        const struct gated_bearings found = weigh_bearings(tracker, look, row);
+        const struct gated_bearings found = weigh_bearings(tracker, look, claims, row);
         const int32_t gain_mnat = rho_score_to_mnat(found.gain_nat);
         unclaimed -= found.hit;
         if (found.is_claimed && own) {
@@ -253,6 +278,7 @@ void rho_step_take_bearings(struct step *step, struct rho_sensor *sensor,
     struct rho_look *look = &step->look;
     rho_life_pass(tracker, look);
     struct rho_tracker_sensor *own = open_look(tracker, step->passive, look, sensor);
+    struct bearing_claims claims;
     validate_bearings(tracker, look);
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
@@ -262,6 +288,7 @@ void rho_step_take_bearings(struct step *step, struct rho_sensor *sensor,
         }
     }
     rho_score_solve(tracker);
-    learn_pd(tracker, look, own);
-    update_by_bearings(tracker, look, own, owners);
+    list_claims(tracker, &claims);
+    learn_pd(tracker, look, &claims, own);
+    update_by_bearings(tracker, look, &claims, own, owners);
 }

@@ -333,6 +333,7 @@ static void put_hostile_values(struct rho_bearing_scan *scan, struct look *look)
     scan->sector_from_rad = uniform(0.0, 1.0) < 0.9 ? 0.0f : hostile_float(-6.2, 6.2);
     scan->sector_to_rad = uniform(0.0, 1.0) < 0.9 ? 0.0f : hostile_float(-6.2, 6.2);
     scan->time_us += uniform(0.0, 1.0) < 0.9 ? 0 : (int64_t)uniform(-6.5e7, 6.5e7);
+    scan->z_m = uniform(0.0, 1.0) < 0.98 ? scan->z_m : NAN;
     scan->x_m = uniform(0.0, 1.0) < 0.95 ? scan->x_m : hostile_float(-1e5, 1e5);
     scan->sensor_id = uniform(0.0, 1.0) < 0.99 ? scan->sensor_id : (int32_t)random_bits();
 }
