@@ -912,10 +912,68 @@ static void sensors_at_no_height_are_refused(void **state)
     }
 }
 
+/* Pushes one look of a sensor, with two bearings. */
+static void push_look(int64_t time_us, unsigned sensor)
+{
+    make_frame(time_us, sensor + 1u, 2);
+    given.scans[0] = given.scans[sensor];
+    given.frame.num_scans = 1;
+    push_frame();
+}
+
+static void looks_of_one_time_share_a_row(void **state)
+{
+    (void)state;
+    init_batch(4);
+    push_look(1000000, 0);
+    push_look(1000000, 1);
+    push_look(2000000, 1);
+    push_look(2000000, 0);
+    assert_int_equal(batch.num_scans, 2);
+    assert_int_equal(batch.num_bearings[1][0] + batch.num_bearings[1][1], 4);
+    assert_true(batch.is_whole && batch.is_due);
+    before = batch;
+    make_frame(2000000, 1, 2);
+    expect_frame_refused(RHO_ERROR_STATE); /* the sensor's second look at that time */
+    make_frame(1999999, 1, 2);
+    expect_frame_refused(RHO_ERROR_STATE);
+}
+
+/* While all are heard there is no room for another one, whose looks would not be told apart. */
+static void a_silent_sensor_makes_room_for_another_one(void **state)
+{
+    (void)state;
+    init_batch(4);
+    for (unsigned s = 0; s < RHO_MAX_PASSIVE_SENSORS; s++) {
+        push_look(1 + s, s);
+    }
+    for (int64_t time_us = 30000000; time_us <= 60000000; time_us += 30000000) {
+        for (unsigned s = 1; s < RHO_MAX_PASSIVE_SENSORS; s++) {
+            push_look(time_us + s, s);
+        }
+    }
+    make_frame(60000001 + RHO_MAX_PASSIVE_SENSORS, 1, 2);
+    given.scans[0].sensor_id = 99;
+    push_frame(); /* sensor 20 was silent for more than a minute */
+    assert_int_equal(batch.num_sensors, RHO_MAX_PASSIVE_SENSORS);
+    assert_int_equal(batch.sensors[0].sensor_id, 99);
+    unsigned kept = 0;
+    for (unsigned k = 0; k < batch.num_scans; k++) {
+        kept += batch.num_bearings[k][0];
+    }
+    assert_int_equal(kept, 2); /* the other one's own: those of sensor 20 are gone */
+    before = batch;
+    make_frame(60000002 + RHO_MAX_PASSIVE_SENSORS, 1, 2);
+    expect_frame_refused(RHO_ERROR_CAPACITY); /* sensor 20 again, as all are heard */
+    assert_true(rho_batch_is_sound(&batch));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(init_refuses_values_out_of_range),
+        cmocka_unit_test(looks_of_one_time_share_a_row),
+        cmocka_unit_test(a_silent_sensor_makes_room_for_another_one),
         cmocka_unit_test(a_sensor_keeps_the_number_of_its_first_scan),
         cmocka_unit_test(null_pointers_are_refused),
         cmocka_unit_test(a_frame_must_be_newer_than_the_newest),
