@@ -5,7 +5,7 @@
 the papers' pipeline and Stone Soup, and the goals.
 
 Sensors 0 to 3 s apart, of .1 to 2 degrees, two to eight of them, some that move or share a mast; 2
-to 20 targets, straight and turning, P_D 1 to .7, and hours without a target; elevations, beside the
+to 30 targets, straight and turning, P_D 1 to .7, and hours without a target; elevations, beside the
 same sky without them. A row that the program refuses says so. Exit codes: 0, also where goals are
 missed; 1: the program failed; 2: bad usage.
 """
@@ -114,6 +114,10 @@ ROWS = {
     "turning .5 deg": (around(0.5), Goal(0.982, 0.01, 3)),
     "turning .5 deg P_D .7": (around(0.5, pd=0.7), Goal(0.97, 0.02, 4)),
     "turning .1 deg": (around(0.1), Goal(0.982, 0.01, 3, 1.25)),
+    "turning 1 deg": (around(1), Goal()),
+    "straight .5 deg P_D .7": (around(0.5, 0, pd=0.7), Goal()),
+    "turning .5 deg .7 s apart": (around(0.5, phases_s=(0, 0.7, 1.4)),
+                                  Goal(rms=1.3, below=0.01, beside="turning .5 deg")),
     "turning .3 g 10 s a frame": (
         around(0.1, 3, frames=60, interval_s=10, turn_s=(30, 60)), Goal(0.5)),
     "3 moving .5 deg": (
@@ -124,10 +128,14 @@ ROWS = {
     "one mast alone .1 deg": (ahead(0.1, 2, (AHEAD_3[0], AHEAD_3[0])), Goal(starts=0)),
     "5 sensors .5 deg": (around(0.5, places_m=ring(5)), Goal(0.98)),
     "6 sensors .5 deg": (around(0.5, places_m=ring(6)), Goal(0.98)),
+    "7 sensors .5 deg P_D .7": (around(0.5, places_m=ring(7), pd=0.7), Goal()),
     "8 sensors .5 deg": (around(0.5, places_m=ring(8)), Goal(0.98)),
+    "8 targets 4 sensors 1 s": (
+        around(0.5, 5, ring(4), targets=8, frames=120, interval_s=1), Goal()),
     "12 targets .1 deg": (ahead(0.1, 12, **CROWD), Goal()),
     "16 targets .1 deg": (ahead(0.1, 16, **CROWD), Goal()),
     "20 targets .1 deg": (ahead(0.1, 20, **CROWD), Goal()),
+    "30 targets .1 deg": (ahead(0.1, 30, **CROWD), Goal()),
     **cameras("2 cameras .2 deg", ahead(0.2, places_m=AHEAD_3[:2], height_m=15e3, masts_m=(20, 60),
                                         **CROWD)),
     **cameras("3 cameras 1 deg 6 targets",
