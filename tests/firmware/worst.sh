@@ -18,7 +18,7 @@ keeps() { # the promise, and what the processor has time for
     printf '%-10s %10d of %10d promised, %10d in time\n' "$1" "$instructions" \
         "$((a + b * work_max))" "$most"
     [ "$instructions" -gt 0 ] && [ "$instructions" -le "$((a + b * work_max))" ] &&
-        [ "$instructions" -le "$most" ]
+        { [ "$is_aim" = 1 ] || [ "$instructions" -le "$most" ]; }
 }
 
 declare -A worst promised time_for
@@ -28,10 +28,11 @@ keeps_under() { # name, sky
     [ "$instructions" -le "${worst[$1]:-0}" ] || worst[$1]=$instructions
 }
 
-# Flash and RAM of a node's image in bytes, stack included.
+# Flash and RAM of a node's image in bytes, stack included; `- -` where none is shipped.
 memory_of() {
     local image=$images/m4/nodes/$1.elf
     [ "$1" != full ] || image=$images/m4/radar.elf
+    [ -e "$image" ] || { echo '- -'; return; }
     arm-none-eabi-size -A "$image" | awk '
         $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
         $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
@@ -41,8 +42,9 @@ memory_of() {
 # The section `worst` of the page.
 section() {
     local name flash ram
-    printf '\nMillions of instructions of the worst step in the skies that are kept, and bytes of '\
-'the image with its\nstack, Cortex-M4F, arm-none-eabi-gcc %s.\n\n' \
+    printf '\nMillions of instructions of the worst step in the skies that are kept, of finders '\
+'the worst second,\nfour looks; bytes of the image with its stack; Cortex-M4F, arm-none-eabi-gcc '\
+'%s.\n\n' \
         "$(arm-none-eabi-gcc -dumpfullversion)"
     printf '| node | worst found | promised | time for | flash | RAM |\n|---|---|---|---|---|---|\n'
     for name in $shipped; do
@@ -50,7 +52,7 @@ section() {
         [ -z "${worst[$name]-}" ] || awk -v name="$name" -v worst="${worst[$name]}" \
             -v promised="${promised[$name]}" \
             -v most="${time_for[$name]}" -v flash="$flash" -v ram="$ram" \
-            'BEGIN { printf "| %s | %.3g | %.3g | %.3g | %d | %d |\n", name, worst / 1e6,
+            'BEGIN { printf "| %s | %.3g | %.3g | %.3g | %s | %s |\n", name, worst / 1e6,
                 promised / 1e6, most / 1e6, flash, ram }'
     done
     printf '\n'

@@ -42,7 +42,7 @@ replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.
 # The configurations of nodes/, and whose processor is to take them.
 node_names_m4 := en_route marine smallest paper traffic
 node_names_m7 := traffic
-worst_names_m4 := full $(filter-out paper,$(node_names_m4))
+worst_names_m4 := full finders $(filter-out paper,$(node_names_m4))
 # Those that play records, too.
 replay_names := smallest paper
 replays := $(replay_names:%=$(firmware)/m4/nodes/%-replay.elf)
@@ -93,8 +93,10 @@ $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 
 # --- configurations of nodes/: build/firmware/CORE/nodes/NAME.elf; their worst scans: worst/ ------
 
-worst_sources := $(library_sources) tools/instructions/worst_step_search.c \
-                 $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout.c)
+worst_search_finders := worst_bearing_search
+worst_sources = $(library_sources) \
+                tools/instructions/$(or $(worst_search_$(1)),worst_step_search).c \
+                $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout.c)
 
 define node_of # core, name
 $(firmware)/$(1)/nodes/$(2).elf: \
@@ -106,8 +108,9 @@ $(firmware)/$(1)/nodes/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 	    -DRHO_CONFIG_FILE='"nodes/$(2).h"' $(FIRMWARE_OPT) $$(part_flags))
 endef
 define worst_of # core, name
-$(firmware)/$(1)/worst/$(2).elf: $(worst_sources:%.c=$(firmware)/$(1)/worst/$(2)/%.o) \
-                                 $(firmware_scripts)
+$(firmware)/$(1)/worst/$(2).elf: \
+    $(patsubst %.c,$(firmware)/$(1)/worst/$(2)/%.o,$(call worst_sources,$(2))) \
+    $(firmware_scripts)
 	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) --specs=rdimon.specs -T large.ld, \
 	    $$(filter %.o,$$^))
 $(firmware)/$(1)/worst/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
@@ -135,7 +138,7 @@ worst: $(worst_images)
 
 job_sources := $(sort $(wildcard tools/instructions/*.c))
 job_parts := $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout.c)
-job_names := $(filter-out hough worst_step_search,$(basename $(notdir $(job_sources))))
+job_names := $(filter-out hough worst_%,$(basename $(notdir $(job_sources))))
 job_images := $(foreach core,m4 m7,$(job_names:%=$(firmware)/$(core)/jobs/%.elf))
 job_flags := $(firmware_flags) -DCOUNT_ON_TARGET -O2
 

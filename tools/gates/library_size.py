@@ -73,6 +73,8 @@ AIMS = [
 BARS = [
     ("passive", "embedded, 2 sensors, 8 scans, 8 bearings", 48 * 1024,
      "-DRHO_MAX_PASSIVE_SENSORS=2 -DRHO_MAX_PASSIVE_SCANS=8 -DRHO_MAX_BEARINGS=8"),
+    ("passive", "embedded, 4 sensors, 8 scans, 16 bearings", 96 * 1024,
+     "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=8 -DRHO_MAX_BEARINGS=16"),
     ("passive", "workstation, 4 sensors, 16 scans, 16 bearings", 90 * 1024,
      "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=16 -DRHO_MAX_BEARINGS=16 "
      "-DRHO_PROFILE_WORKSTATION"),
