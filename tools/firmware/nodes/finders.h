@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * finders: node configuration for four direction finders or cameras, each of one look a second with
- * at most 16 bearings, and eight targets.
+ * at most 16 bearings, and eight targets. 128 crossings instead of 512 take a third to a tenth of
+ * the instructions, and start tracks later where noise of 2 degrees and false bearings meet.
  */
 #define RHO_MAX_PASSIVE_SENSORS 4
 #define RHO_MAX_BEARINGS 16
