@@ -125,7 +125,7 @@ struct gated_bearings {
     float density_nat; /* ln of the density of the one of most weight */
 };
 
-/* The two largest probabilities that a bearing is a track's, by the tracks alone, and their rows. */
+/* The two largest probabilities that a bearing is a track's, and the row of the first. */
 struct bearing_claims {
     struct bearing_claim {
         float most, next;
