@@ -299,7 +299,7 @@
 
 /* Bearings of one scan of a passive sensor; the rest get NO_ROOM, and P_D counts half. 1 .. 64. */
 #ifndef RHO_MAX_BEARINGS
-#define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
+#define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 32)
 #endif
 
 /* Passive sensors, 2 .. 8; rows of a batch, 4 .. 16. RAM: 33 bytes a bearing, sensor and row. */
@@ -310,9 +310,9 @@
 #define RHO_MAX_PASSIVE_SCANS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Crossings of bearings; the least certain give way. RAM: 40 bytes each. 16 .. 65535. */
+/* Crossings of bearings; where there are more, no track starts. RAM: 40 bytes each. 16 .. 65535. */
 #ifndef RHO_MAX_PASSIVE_POINTS
-#define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 1024)
+#define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 2048)
 #endif
 
 /* Fitted candidates of passive tracks. RAM: 24 bytes each, 1 a sensor and frame. 8 .. 255. */
@@ -322,12 +322,12 @@
 
 /* Most tracks that a batch of bearings starts. 1 .. 64, fewer than the candidates. */
 #ifndef RHO_MAX_PASSIVE_TRACKS
-#define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
+#define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 32)
 #endif
 
 /* Directions by which bearings are looked up. RAM: a bit each. A multiple of 32, 32 .. 4096. */
 #ifndef RHO_PASSIVE_BINS
-#define RHO_PASSIVE_BINS 256
+#define RHO_PASSIVE_BINS RHO_CONFIG_PICK(256, 1024)
 #endif
 
 /* The papers' methods (hough.h, passive_paper.h, paper_starts.h, publish.h). */

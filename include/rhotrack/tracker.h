@@ -170,11 +170,12 @@ struct rho_tracker_counters {
     /* starts refused, and tentative tracks ended for another one, as RHO_MAX_TRACKS were there */
     uint32_t tracks_no_room;
     uint32_t gate_plots_dropped; /* plots in a track's gate beyond RHO_MAX_GATE_PLOTS */
-    uint32_t candidates_dropped; /* candidates of the search beyond RHO_MAX_CANDIDATES */
-    uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
-    uint32_t hypotheses_cut;     /* hypotheses beyond RHO_MAX_HYPOTHESES */
-    uint32_t scans_retrodicted;  /* accepted scans that were late, by late_max_s at most */
-    uint32_t sensors_suspected;  /* times that a sensor became suspect */
+    /* candidates of a search beyond RHO_MAX_CANDIDATES; of bearings, crossings that had no room */
+    uint32_t candidates_dropped;
+    uint32_t updates_refused;   /* numerically impossible updates: the track counts a miss */
+    uint32_t hypotheses_cut;    /* hypotheses beyond RHO_MAX_HYPOTHESES */
+    uint32_t scans_retrodicted; /* accepted scans that were late, by late_max_s at most */
+    uint32_t sensors_suspected; /* times that a sensor became suspect */
     /* tracks that an operator ended; unclaimed plots in areas that an operator excluded */
     uint32_t tracks_dropped, plots_excluded;
 };

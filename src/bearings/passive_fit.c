@@ -227,12 +227,7 @@ float rho_passive_distance2(const struct rho_passive_search *search,
     return sum;
 }
 
-/*
- * ln of the share of places and speeds, as targets have them before a bearing is seen, that the
- * claimed bearings leave (Laplace's approximation; src/DESIGN.md): with it the likelihood ratio at
- * the fitted state becomes that of a target anywhere.
- */
-static float score_of_prior(const struct rho_passive_search *search,
+float rho_passive_prior_nat(const struct rho_passive_search *search,
                             const struct rho_passive_candidate *track)
 {
     const struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
@@ -272,7 +267,7 @@ int rho_passive_score_claimed(const struct rho_passive_search *search,
             }
         }
     }
-    track->score_nat += score_of_prior(search, track);
+    track->score_nat += rho_passive_prior_nat(search, track);
     return is_track(search, track, *chi2, scalars);
 }
 

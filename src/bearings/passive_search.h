@@ -200,6 +200,13 @@ int rho_passive_is_in_view(const struct rho_passive_search *search, unsigned sca
  */
 int rho_passive_score_claimed(const struct rho_passive_search *search,
                               struct rho_passive_candidate *track, float *chi2);
+/*
+ * ln of the share of places and speeds, as targets have them before a bearing is seen, that the
+ * claimed bearings leave (Laplace's approximation; src/DESIGN.md): with it the likelihood ratio at
+ * the fitted state becomes that of a target anywhere.
+ */
+float rho_passive_prior_nat(const struct rho_passive_search *search,
+                            const struct rho_passive_candidate *track);
 /* Score of a look with bearing `claim` (from 1) minus that of a miss; 0 beyond 3.5 sigmas. */
 float rho_passive_gain_nat(const struct rho_passive_search *search,
                            const float state_m[RHO_PASSIVE_STATES], unsigned scan, unsigned sensor,

@@ -58,7 +58,7 @@
  * What a track that is followed has over a new one of equal score. Half: tracks are exchanged for
  * the noise of their bearings. Twice: tracks of swapped bearings stay.
  */
-#define KNOWN_NAT 7.0f
+#define KNOWN_NAT 10.0f
 
 /* passive_crossings.c */
 

@@ -56,13 +56,15 @@ static unsigned find_track(const struct rho_tracker *tracker, uint32_t track_id)
 struct owners_list {
     unsigned num, num_challenged;
     struct rho_passive_known known[2 * RHO_MAX_PASSIVE_TRACKS];
+    uint16_t bearings[2 * RHO_MAX_PASSIVE_TRACKS];
 };
 
-/* What a plot or a person vouches for is safe, and what exceeds the search's room. */
+/* What a plot or a person vouches for is safe. */
 static void add_owner(const struct step *step, struct owners_list *list, uint32_t *track_id)
 {
     for (unsigned i = 0; i < list->num; i++) {
         if (list->known[i].track_id == *track_id) {
+            list->bearings[i]++;
             return;
         }
     }
@@ -72,7 +74,8 @@ static void add_owner(const struct step *step, struct owners_list *list, uint32_
         const struct rho_track *track = &step->tracker->tracks[row];
         const float *state = track->kalman.state;
         const float dt_s = rho_seconds_between(track->time_us, step->look.time_us);
-        struct rho_passive_known *known = &list->known[list->num++];
+        struct rho_passive_known *known = &list->known[list->num];
+        list->bearings[list->num++] = 1;
         *known =
             (struct rho_passive_known){.track_id = *track_id,
                                        .x_m = state[0] + dt_s * state[3],
@@ -82,9 +85,8 @@ static void add_owner(const struct step *step, struct owners_list *list, uint32_
                                        .vy_mps = state[4],
                                        .vz_mps = state[5],
                                        .is_level = !rho_kalman_has_axis(&track->kalman, RHO_Z)};
-        known->is_safe = track->plot_sigma_m > 0.0f || track->is_operators ||
-                         rho_track_is_frozen(track) ||
-                         list->num_challenged == RHO_MAX_PASSIVE_TRACKS;
+        known->is_safe =
+            track->plot_sigma_m > 0.0f || track->is_operators || rho_track_is_frozen(track);
         list->num_challenged += !known->is_safe;
     }
 }
@@ -99,6 +101,16 @@ static void list_owners(const struct step *step, struct owners_list *list)
                 add_owner(step, list, &batch->bearings[k][s][i].owner.track_id);
             }
         }
+    }
+    for (; list->num_challenged > CHALLENGED_MAX; list->num_challenged--) {
+        unsigned most = list->num;
+        for (unsigned i = 0; i < list->num; i++) {
+            if (!list->known[i].is_safe &&
+                (most == list->num || list->bearings[i] > list->bearings[most])) {
+                most = i;
+            }
+        }
+        list->known[most].is_safe = 1; /* beyond the room, those of most bearings are safe */
     }
 }
 
@@ -251,9 +263,11 @@ void rho_step_initiate_bearings(struct step *step, const struct rho_batch_owner 
     }
     list_owners(step, &list);
     (void)!rho_passive_challenge(passive, list.known, list.num);
-    counters->candidates_dropped =
-        rho_count(counters->candidates_dropped, passive->work.candidates_dropped);
-    for (unsigned i = 0; i < passive->num_tracks; i++) {
+    const uint32_t dropped =
+        rho_count(passive->work.candidates_dropped, passive->work.points_dropped);
+    counters->candidates_dropped = rho_count(counters->candidates_dropped, dropped);
+    /* where crossings were left out, margins are unknown: rivals may be among them */
+    for (unsigned i = 0; i < passive->num_tracks && passive->work.points_dropped == 0; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];
         /* without a bearing of the last two scans, a started track may claim the newer ones */
         const int is_recent = (unsigned)found->scans >> (passive->batch.num_scans - 2u) != 0;

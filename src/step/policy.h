@@ -36,6 +36,12 @@
 /* bearing_initiation.c */
 
 /*
+ * Tracks that a search challenges at most, those of fewest bearings. Half: swapped ones are seldom
+ * challenged together. Twice: four times the crossings, and sixteen times the pairs of them.
+ */
+#define CHALLENGED_MAX (RHO_MAX_PASSIVE_TRACKS < 16u ? RHO_MAX_PASSIVE_TRACKS : 16u)
+
+/*
  * Least margin of a found track over rival tracks of its bearings: ln of odds of 100 to 1. Half:
  * one start in ten may be a ghost. Twice: crossing targets start only after they have parted.
  */

@@ -306,6 +306,10 @@ static void print_summary(const struct tracking *tracking,
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
     }
+    if (work->partial_steps == 0 && counters->candidates_dropped > 0) {
+        fprintf(stderr, ", candidates of tracks beyond the search's room: %" PRIu32,
+                counters->candidates_dropped);
+    }
     if (pipeline_show_num_not_sent(tracking->show) > 0) {
         fprintf(stderr, ", messages of --show beyond its rate: %" PRIu64,
                 pipeline_show_num_not_sent(tracking->show));
