@@ -55,6 +55,7 @@ struct rho_passive_track {
     int32_t margin_mnat;
     /* sum of the squared normalised residuals of bearings and slopes */
     float chi2;
+    float prior_nat;  /* of the score: ln of the share of places and speeds that they leave */
     uint16_t hits;    /* number of bearings of the track */
     uint16_t scans;   /* scans with bearings of the track: bit k for scan k, 0 the oldest */
     uint8_t is_level; /* 1: none of its bearings has an elevation */

@@ -86,6 +86,7 @@ void rho_passive_select_tracks(struct rho_passive_search *search)
         }
         track->score_mnat = nat_to_mnat(best->tracks[i].score_nat);
         track->margin_mnat = nat_to_mnat(margins_nat[i]);
+        track->prior_nat = rho_passive_prior_nat(search, &best->tracks[i]);
         track->chi2 = best->chi2[i];
         track->hits = (uint16_t)best->tracks[i].hits;
         track->scans = 0;

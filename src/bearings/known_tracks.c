@@ -61,7 +61,6 @@ static void claim_taken(const struct rho_passive_search *search, uint32_t track_
             candidate->score_nat += gain_nat;
         }
     }
-    candidate->score_nat += rho_smaller(rho_passive_prior_nat(search, candidate), 0.0f);
 }
 
 void rho_passive_list_known(struct rho_passive_search *search)

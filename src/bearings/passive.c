@@ -84,15 +84,17 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
     if (!passive || !track || passive->magic != PASSIVE_MAGIC || track->hits == 0) {
         return 0;
     }
+    /* as the fit has them, which pays for its place among all: later ones are expected by it */
+    const float each_nat =
+        (track->prior_nat - 0.5f * track->chi2) / (float)track->hits - 0.5f * RHO_LOG_TWO_PI;
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             const unsigned place = track->claim[k][s];
             if (place > 0 && place <= passive->batch.num_bearings[k][s]) {
                 struct rho_batch_bearing *bearing = &passive->batch.bearings[k][s][place - 1u];
-                const float fit_nat = 0.5f * (RHO_LOG_TWO_PI + track->chi2 / (float)track->hits);
                 given += (uint32_t)rho_batch_is_unclaimed(bearing);
                 bearing->owner =
-                    (struct rho_batch_owner){track_id, -rho_log(bearing->sigma_rad) - fit_nat};
+                    (struct rho_batch_owner){track_id, each_nat - rho_log(bearing->sigma_rad)};
             }
         }
     }

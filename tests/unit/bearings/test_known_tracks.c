@@ -282,7 +282,7 @@ static void a_track_that_was_started_is_not_found_again(void **state)
     assert_true(runs >= 32);
 }
 
-/* Both claims are of the same search; the densities are those of the fits' mean chi-square. */
+/* Both claims are of the same search; the densities have the fits' mean chi-square and prior. */
 static void tracks_of_one_search_are_given_their_bearings(void **state)
 {
     (void)state;
@@ -301,7 +301,8 @@ static void tracks_of_one_search_are_given_their_bearings(void **state)
                 assert_int_equal(bearing->owner.track_id, 5 + t);
                 assert_float_equal(bearing->owner.density_nat,
                                    -log(sqrt(2.0 * PI) * (double)bearing->sigma_rad) -
-                                       0.5 * (double)track->chi2 / track->hits,
+                                       (0.5 * (double)track->chi2 - (double)track->prior_nat) /
+                                           track->hits,
                                    1e-4);
             }
         }

@@ -34,7 +34,7 @@ static float sensor_x_m(unsigned sensor)
     return 3000.0f * (float)sensor;
 }
 
-/* Makes a frame; each scan has `num` bearings, 0.1 rad from each other. */
+/* Makes a frame; each scan has `num` bearings, 0.08 rad from each other. */
 static void make_frame(int64_t time_us, unsigned num_sensors, unsigned num)
 {
     memset(&given, 0, sizeof given);
@@ -50,7 +50,7 @@ static void make_frame(int64_t time_us, unsigned num_sensors, unsigned num)
                                                    .bearings = given.bearings[s]};
         for (unsigned i = 0; i < num; i++) {
             given.bearings[s][i] = (struct rho_bearing){
-                .bearing_rad = 0.1f * (float)i + 0.01f * (float)s, .sigma_rad = 0.002f};
+                .bearing_rad = 0.08f * (float)i + 0.01f * (float)s, .sigma_rad = 0.002f};
         }
     }
 }
