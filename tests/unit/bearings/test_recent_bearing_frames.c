@@ -289,7 +289,7 @@ static void fates_tell_which_bearings_are_held_or_invalid(void **state)
                              place == 1 || place == 6 ? RHO_FATE_INVALID : RHO_FATE_HELD);
         }
         assert_int_equal(batch.num_bearings[0][0], 3);
-        assert_float_equal(batch.bearings[0][0][1].bearing_rad, 0.2, 1e-6);
+        assert_float_equal(batch.bearings[0][0][1].bearing_rad, 0.16, 1e-6);
     }
     make_frame(2, 2, 1);
     given.bearings[0][0] =
