@@ -346,7 +346,7 @@ int64_t rho_node_due_us(const struct rho_node *node);
  * (rho_tracker_set_sensor). Any two radars may share a window.
  * Errors: NULL, STATE (not initialised), TYPE (the build has no such scans), and those of
  * rho_tracker_step and rho_paper_starts_step; after the latter the step was made.
- * Stack: 4.7 KB.
+ * Stack: 4.8 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_step_scan(struct rho_node *node,
                                                   const struct rho_scan *scan);

@@ -200,7 +200,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
  * Searches all bearings for the best set of tracks, known and new, and says which known ones it
  * lacks: a track that began with bearings of several targets gives way to theirs. Bearings of other
  * owners are left out. Results: as of rho_passive_search, known[].is_beaten. Errors: NULL, STATE,
- * CAPACITY (more than RHO_MAX_PASSIVE_TRACKS that are not safe). Stack: 2.8 KB (embedded profile).
+ * CAPACITY (more than RHO_MAX_PASSIVE_TRACKS that are not safe). Stack: 2.9 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_challenge(struct rho_passive *passive,
                                                      struct rho_passive_known *known,

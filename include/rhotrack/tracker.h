@@ -611,7 +611,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
  * changed, *report neither.
  * Cost: live tracks x bearings gate tests, an assignment, updates, and once a row of looks a
  * rho_passive_challenge.
- * Stack: 4.7 KB (embedded profile).
+ * Stack: 4.8 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step_bearings(struct rho_tracker *tracker,
                                                          struct rho_passive *passive,

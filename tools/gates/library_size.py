@@ -92,7 +92,7 @@ BARS = [
 OBJECTS = {
     "ghost": "ghost_matrix", **{
         name: name
-        for name in ("accumulator window hough initiator frames batch passive passive_paper kalman "
+        for name in ("accumulator window hough initiator batch passive passive_paper kalman "
                      "input gate imm hypotheses track assignment tracker scan_assembler node "
                      "show").split()
     }
