@@ -3,16 +3,6 @@
 #include "phases.h"
 #include "rhotrack/detail/doppler_notch.h"
 
-/* Counts a miss of a track without a bearing where the scan looked; its score has it already. */
-static void count_miss_of_bearings(const struct rho_look *look, struct rho_track *track)
-{
-    const struct rho_bearing_scan *scan = look->bearings;
-    if (track->plot < 0 &&
-        rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
-        rho_track_count_miss(track, 0);
-    }
-}
-
 /*
  * Counts a miss of a track without a plot where the scan looked, and lowers the score; hypotheses
  * have taken the miss from their score already.
@@ -46,8 +36,6 @@ void rho_step_age(struct step *step)
         }
         if (look->scan) {
             count_miss_of_scan(look, track, row);
-        } else {
-            count_miss_of_bearings(look, track);
         }
         if (RHO_SECTORS && look->scan) {
             rho_turn_note_seen(look, track);

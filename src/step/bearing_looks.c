@@ -271,6 +271,19 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
     }
 }
 
+/* Scores are left alone: the update has lowered them. */
+static void count_misses(struct rho_tracker *tracker, const struct rho_look *look)
+{
+    const struct rho_bearing_scan *scan = look->bearings;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status != RHO_TRACK_FREE && track->plot < 0 && rho_look_has_in_view(look, row) &&
+            rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track)) {
+            rho_track_count_miss(track, 0);
+        }
+    }
+}
+
 void rho_step_take_bearings(struct step *step, struct rho_sensor *sensor,
                             struct rho_batch_owner *owners)
 {
@@ -291,4 +304,5 @@ void rho_step_take_bearings(struct step *step, struct rho_sensor *sensor,
     list_claims(tracker, &claims);
     learn_pd(tracker, look, &claims, own);
     update_by_bearings(tracker, look, &claims, own, owners);
+    count_misses(tracker, look);
 }

@@ -77,6 +77,9 @@ firmware_bind = @echo "  link     $@" && $(ARM_CC) $(1) $(firmware_link) -Wl,-Ma
 $(firmware)/m4/%/memory.o $(firmware)/m7/%/memory.o: private part_flags := $(memory_flags)
 # The one node's address, known in all functions, would be loaded field by field.
 $(foreach core,m4 m7,$(firmware)/$(core)/%/lcm_datagram_node.o): private part_flags := -fno-ipa-cp
+# The update of hypotheses is not put into the step: starts need the stack that it leaves.
+$(foreach core,m4 m7,$(firmware)/$(core)/%/step/update.o): private \
+    part_flags := -fno-inline-functions-called-once
 
 define firmware_core # m4 or m7
 $(firmware)/$(1)/radar.elf: $(radar_sources:%.c=$(firmware)/$(1)/radar/%.o) $(firmware_scripts)
