@@ -176,7 +176,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_accepts(const struct rho_passive *pas
 
 /*
  * Adds a frame of bearings to the batch by rho_batch_push, and discards the tracks of the last
- * search. Errors: those of rho_batch_push. Stack: 220 bytes.
+ * search. Errors: those of rho_batch_push. Stack: 240 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
                                                 const struct rho_frame *frame, uint8_t *fates);

@@ -150,7 +150,7 @@ rho_passive_paper_init(struct rho_passive_paper *paper, size_t object_size,
  *   fates  in and out, one for each bearing: set those that may vote to RHO_FATE_HELD
  * Errors: those of rho_batch_push; VALUE also for fates that were not set: a value that is no fate,
  * or bearings of which none is HELD. A frame of which tracks claim all is pushed without bearings.
- * Stack: 230 bytes.
+ * Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
                                                       const struct rho_frame *frame,

@@ -190,7 +190,7 @@ void rho_publish_zone_events(const struct rho_zones *zones,
 /* Intermediate results of a step. */
 
 enum rho_show_kind {
-    RHO_SHOW_GHOSTS,     /* ghost_matrix_t of each pair of sensors in the newest frame */
+    RHO_SHOW_GHOSTS,     /* ghost_matrix_t of each pair of sensors in a row that ended */
     RHO_SHOW_VOTES,      /* accumulator_t and plane_t of the last search */
     RHO_SHOW_HYPOTHESES, /* hypotheses_t of each track */
     RHO_NUM_SHOW_KINDS

@@ -605,7 +605,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
  *   scan     bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS NO_ROOM. A scan older
  *            than the newest accepted one is late: all its bearings are STALE
  *   report   filled whole
- * Errors: NULL, STATE (tracker or passive not initialised, or a scan of this sensor's newest time),
+ * Errors: NULL, STATE (tracker or passive not initialised; with passive a second scan of one time),
  * CONFIG (passive, without RHO_SEARCHES), VALUE (a place that is no coordinate, a sector beyond one
  * turn either way, a time beyond RHO_LIMIT_TIME_US), and those of rho_passive_accepts; nothing is
  * changed, *report neither.

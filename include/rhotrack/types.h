@@ -48,7 +48,7 @@
  *   sensor health         estimated errors of a sensor; a suspect sensor contradicts the others,
  *                         its witnesses
  *   manoeuvre interval    mean time between manoeuvres of a target
- *   frame, batch          bearing scans of several passive sensors; successive rows of them
+ *   row, batch            a look of each passive sensor; successive rows. Frame: looks of one time
  *   ghost                 a crossing of bearings at which there is no target
  *   oracle                in experiments: an algorithm that is told the truth
  *

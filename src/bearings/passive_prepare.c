@@ -14,8 +14,8 @@ void rho_passive_prepare(struct rho_passive_search *search)
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             search->looks += batch->was_seen[k][s];
-            x_m += batch->looks[k][s].x_m;
-            y_m += batch->looks[k][s].y_m;
+            x_m += batch->was_seen[k][s] ? batch->looks[k][s].x_m : 0.0f;
+            y_m += batch->was_seen[k][s] ? batch->looks[k][s].y_m : 0.0f;
         }
     }
     const float looks = rho_larger((float)search->looks, 1.0f);

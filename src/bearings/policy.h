@@ -34,6 +34,11 @@
  * into rows of two halves. Twice: a missed look is waited for, and the sensor's next one joins.
  */
 #define ROW_INTERVALS 0.9f
+/*
+ * Longest interval that a row waits for, in shortest ones. Half: finders of unlike turns fall into
+ * rows of their own. Twice: one sensor that looks now and then makes all starts late.
+ */
+#define ROW_RATIO 4.0f
 
 /* bearing_match.c */
 

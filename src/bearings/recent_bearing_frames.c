@@ -42,6 +42,15 @@ static int is_heard(const struct rho_batch_sensor *sensor, int64_t time_us)
     return apart_us(sensor->looked_us, time_us) <= RHO_LIMIT_OFFSET_US;
 }
 
+static unsigned count_heard(const struct rho_batch *batch, int64_t time_us)
+{
+    unsigned num = 0;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        num += (unsigned)is_heard(&batch->sensors[s], time_us);
+    }
+    return num;
+}
+
 /* Index of the sensor, known or not; RHO_MAX_PASSIVE_SENSORS: all are of sensors that are heard. */
 static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id, int64_t time_us)
 {
@@ -67,8 +76,8 @@ static int is_sensor_usable(const struct rho_batch *batch, const struct rho_fram
         (scan->time_us != 0 && apart_us(frame->time_us, scan->time_us) > RHO_LIMIT_OFFSET_US)) {
         return 0;
     }
-    const unsigned num =
-        frame->num_scans > batch->num_sensors ? frame->num_scans : batch->num_sensors;
+    const unsigned heard = count_heard(batch, frame->time_us);
+    const unsigned num = frame->num_scans > heard ? frame->num_scans : heard;
     const float n = rho_larger(4.0f, (float)num);
     const float apart_max_m = batch->apart_max_m * 0.5f * n / (n - 2.0f);
     for (unsigned i = 0; i < batch->num_sensors; i++) {
@@ -96,10 +105,7 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
     if (batch->num_scans > 0 && frame->time_us < batch->newest_us) {
         return RHO_ERROR_STATE;
     }
-    unsigned num_sensors = 0;
-    for (unsigned s = 0; s < batch->num_sensors; s++) {
-        num_sensors += (unsigned)is_heard(&batch->sensors[s], frame->time_us);
-    }
+    unsigned num_sensors = count_heard(batch, frame->time_us);
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
         if (scan->num_bearings > 0 && !scan->bearings) {
@@ -122,10 +128,13 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
     return RHO_OK;
 }
 
-/* Longest time between a sensor's two newest looks; 0: none has looked twice. */
+/*
+ * Longest time between a sensor's two newest looks, but not far above the shortest: one that looks
+ * now and then keeps no row open. 0: none has looked twice.
+ */
 static float longest_interval_s(const struct rho_batch *batch)
 {
-    float longest_s = 0.0f;
+    float longest_s = 0.0f, shortest_s = 1e9f;
     for (unsigned s = 0; s < batch->num_sensors; s++) {
         int64_t newer_us = INT64_MAX;
         for (unsigned k = batch->num_scans; k-- > 0;) {
@@ -134,13 +143,15 @@ static float longest_interval_s(const struct rho_batch *batch)
             }
             const int64_t time_us = batch->time_us[k] + batch->looks[k][s].offset_us;
             if (newer_us != INT64_MAX) {
-                longest_s = rho_larger(longest_s, rho_seconds_between(time_us, newer_us));
+                const float interval_s = rho_seconds_between(time_us, newer_us);
+                longest_s = rho_larger(longest_s, interval_s);
+                shortest_s = interval_s > 0.0f ? rho_smaller(shortest_s, interval_s) : shortest_s;
                 break;
             }
             newer_us = time_us;
         }
     }
-    return longest_s;
+    return rho_smaller(longest_s, ROW_RATIO * shortest_s);
 }
 
 static int has_looks_of_all(const struct rho_batch *batch, unsigned scan)
@@ -193,6 +204,7 @@ static unsigned give_index(struct rho_batch *batch, const struct rho_bearing_sca
         for (unsigned k = 0; k < batch->num_scans; k++) {
             count_left(batch, k, s);
             batch->num_bearings[k][s] = batch->was_seen[k][s] = 0;
+            batch->looks[k][s] = (struct rho_batch_look){.offset_us = 0};
         }
     }
     batch->sensors[s] = (struct rho_batch_sensor){.looked_us = batch->newest_us,
@@ -334,7 +346,8 @@ int rho_batch_is_sound(const struct rho_batch *batch)
     }
     for (unsigned i = 0; i < batch->num_sensors; i++) {
         const struct rho_batch_sensor *sensor = &batch->sensors[i];
-        if (!rho_is_coordinate(sensor->x_m) || !rho_is_coordinate(sensor->y_m)) {
+        if (!rho_is_coordinate(sensor->x_m) || !rho_is_coordinate(sensor->y_m) ||
+            sensor->looked_us > batch->newest_us) {
             return 0;
         }
     }

@@ -2,8 +2,6 @@
 /* node: messages in, and what is stepped next: scans of plots or bearings, restarts. */
 #include "rhotrack/node.h"
 
-#include <string.h>
-
 #include "node_parts.h"
 
 /*

@@ -122,8 +122,8 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
         return RHO_OK;
     }
     const struct rho_batch *batch = &paper->batch;
-    int64_t first_us = batch->time_us[0], last_us = batch->time_us[batch->num_scans - 1];
-    search.half_s = 0.5f * rho_seconds_between(first_us, last_us);
+    int64_t first_us = batch->time_us[0];
+    search.half_s = 0.5f * rho_seconds_between(first_us, batch->newest_us);
     for (unsigned k = 0; k < batch->num_scans; k++) {
         search.step[k] = rho_seconds_between(first_us, batch->time_us[k]) / search.half_s - 1.0f;
     }

@@ -19,12 +19,12 @@ static int is_ghost_bearing(const struct step *step, float bearing_rad)
     struct rho_crossing crossing;
     int has_crossings = 0;
     for (unsigned s = 0; s < batch->num_sensors; s++) {
-        unsigned k = batch->num_scans;
-        while (k > 0 && !batch->was_seen[k - 1u][s]) {
+        unsigned k = batch->num_scans; /* one look ago at most: an older one tells nothing */
+        while (k > 0 && k + 1u >= batch->num_scans && !batch->was_seen[k - 1u][s]) {
             k--;
         }
         const struct rho_batch_look *other = &batch->looks[k > 0 ? k - 1u : 0][s];
-        if (k == 0 || batch->sensors[s].sensor_id == scan->sensor_id ||
+        if (k == 0 || k + 1u < batch->num_scans || batch->sensors[s].sensor_id == scan->sensor_id ||
             rho_crossing_set_base(&base, scan->x_m, scan->y_m, other->x_m, other->y_m) != RHO_OK) {
             continue;
         }
@@ -181,7 +181,9 @@ static int admit_found_track(struct step *step, uint32_t heir_id, const struct r
         rho_track_free_hypotheses(&tracker->tracks[row], &step->look.model);
     }
     if (rho_track_start_estimate(&track, track_id, estimate, step->look.time_us, sensor_id,
-                                 found->hits, &step->look.model, score_mnat) != RHO_OK) {
+                                 found->hits < RHO_ESTABLISHED_HITS ? found->hits
+                                                                    : RHO_ESTABLISHED_HITS - 1u,
+                                 &step->look.model, score_mnat) != RHO_OK) {
         if (row < RHO_MAX_TRACKS) {
             rho_step_end_track(step, row);
         }

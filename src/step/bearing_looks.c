@@ -258,7 +258,8 @@ static void update_by_bearings(struct rho_tracker *tracker, const struct rho_loo
         } else if (rho_track_update_bearings(track, &found.weighed, found.row, found.is_claimed,
                                              &look->model, gain_mnat) != RHO_OK) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
-        } else if (found.is_claimed) {
+        } else if (found.is_claimed && (owners[found.row].track_id == 0 ||
+                                        tracker->assignment.column_row[found.row] == (int)row)) {
             look->fates[found.row] = RHO_FATE_CLAIMED;
             owners[found.row] = (struct rho_batch_owner){track->track_id, found.density_nat};
         }

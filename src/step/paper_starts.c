@@ -239,10 +239,14 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     struct rho_bearing_scan held = *scan;
     held.num_bearings = held.num_bearings < most ? held.num_bearings : most;
     held.num_bearings = held.num_bearings < RHO_MAX_BEARINGS ? held.num_bearings : RHO_MAX_BEARINGS;
+    const struct rho_frame frame = {.time_us = scan->time_us, .scans = &held, .num_scans = 1};
+    enum rho_status status = rho_batch_accepts(&paper->batch, &frame);
+    if (status != RHO_OK) {
+        return status;
+    }
     const uint32_t num = held.num_bearings, num_held = hold_unclaimed(report->fates, num);
     held.num_bearings = num_held > 0 ? num : 0; /* tracks claim all, but the sensor has looked */
-    const struct rho_frame frame = {.time_us = scan->time_us, .scans = &held, .num_scans = 1};
-    enum rho_status status = rho_passive_paper_push(paper, &frame, report->fates);
+    status = rho_passive_paper_push(paper, &frame, report->fates);
     if (status != RHO_OK) {
         return status;
     }

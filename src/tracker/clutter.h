@@ -18,7 +18,7 @@ float rho_clutter_background(const struct rho_look *look, float x_m, float y_m);
 float rho_clutter_background_at(const struct rho_look *look, const struct rho_plot *plot);
 /* ln of the density of clutter at the track's place, in the part of the scan that is claimed. */
 float rho_clutter_log_at_track(const struct rho_look *look, const struct rho_track *track);
-/* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
+/* Clutter plots expected within three standard deviations of the track's place; 0 of bearings. */
 float rho_clutter_in_gate(const struct rho_look *look, const struct rho_track *track);
 /* Measures the clutter density of a later part of the scan, from its held plots. */
 void rho_clutter_measure_part(struct rho_look *look);

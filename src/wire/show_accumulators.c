@@ -30,14 +30,14 @@ static const struct rho_paper_starts *searched_paper_starts(const struct rho_sho
     return source->starts && source->starts->has_searched ? source->starts : NULL;
 }
 
-/* Number of accumulators of bearings; 0 where the step's frame was not searched. */
+/* Number of accumulators of bearings; 0 where the step has not searched. */
 static unsigned num_bearing_accumulators(const struct rho_show_source *source)
 {
     struct rho_passive_paper_pair pair;
     const struct rho_passive_paper *paper = source->paper;
     unsigned pairs = 0;
-    if (!paper || paper->batch.num_scans != paper->batch.scans_max ||
-        paper->batch.time_us[paper->batch.num_scans - 1u] != source->report->time_us) {
+    if (!paper || paper->batch.num_scans != paper->batch.scans_max || !paper->batch.is_due ||
+        paper->batch.newest_us != source->report->time_us) {
         return 0;
     }
     while (rho_passive_paper_pair(paper, pairs, &pair)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* show_ghosts: messages of the newest frame's ghost matrices, one matrix for each sensor pair. */
+/* show_ghosts: messages of the newest row's ghost matrices, one matrix for each sensor pair. */
 #include "message_clamps.h"
 #include "show_writers.h"
 
@@ -22,8 +22,8 @@ static int find_part(const struct rho_show_source *source, uint32_t number,
     const struct rho_batch *batch = source->paper ? &source->paper->batch : NULL;
     const unsigned scan = batch ? batch->num_scans - 1u : 0;
     *before = 0;
-    if (!batch || batch->num_scans == 0 || batch->time_us[scan] != source->report->time_us) {
-        return 0; /* the newest frame is not that of the step */
+    if (!batch || !batch->is_due || batch->newest_us != source->report->time_us) {
+        return 0; /* the step has ended no row */
     }
     for (unsigned i = 0; rho_passive_paper_pair(source->paper, i, pair); i++) {
         const uint8_t *was_seen = batch->was_seen[scan];

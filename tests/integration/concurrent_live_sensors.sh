@@ -117,7 +117,7 @@ check 'a biased sensor: on RHO_SENSORS' matches "$(read_sensors said.lcm)" '1 0
 2 0
 3 1'
 
-# ---- three passive sensors, which make frames ----
+# ---- three passive sensors ----
 run simulate passive-three --seed 4 --set duration_s=160 -o passive
 for sensor in 1 2 3; do
     awk -F, -v s="$sensor" 'NR == 1 || $2 == s' passive/bearings.csv >"passive$sensor.csv"
@@ -125,6 +125,18 @@ done
 run track passive1.csv passive2.csv passive3.csv --config passive/scenario.ini -o expected.csv
 play --config passive/scenario.ini --set hold_ms=90 -- passive1.csv passive2.csv passive3.csv
 check 'three passive sensors: all ends well' exits 0
-check 'three passive sensors: whole frames' test -z "$(grep -E 'incomplete|lost|late' live.err)"
-check 'three passive sensors: the tracks are those of the files' same_from 0
+check 'three passive sensors: no scan is lost' test -z "$(grep -E 'refused|lost|late' live.err)"
+# A node prints each look, a file has a row a time. Sums are in the order in which sensors were
+# heard first, so that last digits may differ, and the sensor that a track starts with (column 17).
+tac live.csv | awk -F, '!seen[$1, $2]++' | tac >last.csv
+same_but_for_last_digits() {
+    test "$(wc -l <last.csv)" -gt 20 && test "$(wc -l <last.csv)" -eq "$(wc -l <expected.csv)" &&
+        paste -d, expected.csv last.csv | awk -F, 'NR > 1 {
+            for (i = 1; i <= NF / 2; i++) {
+                d = $i - $(i + NF / 2)
+                if (i != 17 && d * d > (1e-4 * $i) ^ 2 + 1e-6) exit 1
+            }
+        }'
+}
+check 'three passive sensors: the tracks are those of the files' same_but_for_last_digits
 finish

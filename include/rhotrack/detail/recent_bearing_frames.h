@@ -106,7 +106,7 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  * than RHO_MAX_PASSIVE_SENSORS that are heard), VALUE (a sensor twice in the frame, a sensor
  * farther than apart_max_m from another, or whose position is not a coordinate, a sector beyond one
  * turn either way, a scan more than RHO_LIMIT_OFFSET_US from its frame); nothing is changed. Cost:
- * the bearings, and moving the batch by a row. Stack: 210 bytes.
+ * the bearings, and moving the batch by a row. Stack: 230 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
                                               const struct rho_frame *frame, uint8_t *fates,

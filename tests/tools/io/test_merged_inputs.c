@@ -158,9 +158,9 @@ static void two_files_of_each_kind_are_merged(void **state)
     add_file_with(&given, BEARINGS "0.01,9,9,0,1\n20,9,9,0,1\n");
     add_file_with(&given, PLOTS "3,2,5,5\n10,2,5,5\n");
     open_inputs(&given, false);
-    assert_inputs(&given,
-                  (const char *[]){"0: f 8(1) 9(1)", "3000: s2(1)", "5000: s1(1)", "10000: s1(1)",
-                                   "10000: s2(1)", "10000: f 8(1)", "20000: f 9(1)", "end"});
+    assert_inputs(&given, (const char *[]){"0: f 8(1)", "10: f 9(1)", "3000: s2(1)", "5000: s1(1)",
+                                           "10000: s1(1)", "10000: s2(1)", "10000: f 8(1)",
+                                           "20000: f 9(1)", "end"});
     close_and_delete_files(&given);
 }
 

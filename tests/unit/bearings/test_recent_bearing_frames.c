@@ -685,10 +685,10 @@ static unsigned plain_count_free_bearings(const struct plain_look *look)
     return count;
 }
 
-/* Longest time from the last look of a sensor but one to its last. */
+/* Longest time from the last look of a sensor but one to its last; four of the shortest at most. */
 static int64_t plain_longest_interval_us(void)
 {
-    int64_t longest_us = 0;
+    int64_t longest_us = 0, shortest_us = INT64_MAX / 8;
     for (unsigned s = 0; s < num_known; s++) {
         int64_t last_us = 0, interval_us = 0;
         unsigned looks = 0;
@@ -699,8 +699,9 @@ static int64_t plain_longest_interval_us(void)
             }
         }
         longest_us = interval_us > longest_us ? interval_us : longest_us;
+        shortest_us = interval_us > 0 && interval_us < shortest_us ? interval_us : shortest_us;
     }
-    return longest_us;
+    return longest_us < 4 * shortest_us ? longest_us : 4 * shortest_us;
 }
 
 static int plain_row_lacks_one(const struct plain_row *row)
@@ -939,6 +940,25 @@ static void looks_of_one_time_share_a_row(void **state)
     expect_frame_refused(RHO_ERROR_STATE);
 }
 
+/* Two sensors look each second, a third one now and then: rows wait for it four seconds at most. */
+static void a_sensor_that_looks_now_and_then_keeps_no_row_open(void **state)
+{
+    (void)state;
+    unsigned due = 0;
+    init_batch(4);
+    for (int64_t t_s = 0; t_s < 120; t_s++) {
+        push_look(1000000 * t_s, 0);
+        due += batch.is_due;
+        push_look(1000000 * t_s, 1);
+        due += batch.is_due;
+        if (t_s == 0 || t_s == 6 || t_s == 18 || t_s == 42 || t_s == 90) {
+            push_look(1000000 * t_s, 2);
+        }
+        assert_true(batch.newest_us - batch.time_us[batch.num_scans - 1u] < 4000000);
+    }
+    assert_true(due > 25);
+}
+
 /* While all are heard there is no room for another one, whose looks would not be told apart. */
 static void a_silent_sensor_makes_room_for_another_one(void **state)
 {
@@ -962,6 +982,7 @@ static void a_silent_sensor_makes_room_for_another_one(void **state)
         kept += batch.num_bearings[k][0];
     }
     assert_int_equal(kept, 2); /* the other one's own: those of sensor 20 are gone */
+    assert_float_equal(batch.looks[0][0].x_m, 0.0, 0.0);
     before = batch;
     make_frame(60000002 + RHO_MAX_PASSIVE_SENSORS, 1, 2);
     expect_frame_refused(RHO_ERROR_CAPACITY); /* sensor 20 again, as all are heard */
@@ -973,6 +994,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(init_refuses_values_out_of_range),
         cmocka_unit_test(looks_of_one_time_share_a_row),
+        cmocka_unit_test(a_sensor_that_looks_now_and_then_keeps_no_row_open),
         cmocka_unit_test(a_silent_sensor_makes_room_for_another_one),
         cmocka_unit_test(a_sensor_keeps_the_number_of_its_first_scan),
         cmocka_unit_test(null_pointers_are_refused),

@@ -140,7 +140,7 @@ static void add_time_sample(struct node_core_times *times, int64_t took_us)
     times->max_us = took_us > times->max_us ? took_us : times->max_us;
 }
 
-/* Time from the reception of the step's scan to now; of bearings, from the newest scan of them. */
+/* Time from the reception of the step's scan to now. */
 static int64_t scan_waiting_time_us(const struct node_core *core, enum rho_node_due due)
 {
     int64_t heard_us = INT64_MIN;
@@ -148,7 +148,9 @@ static int64_t scan_waiting_time_us(const struct node_core *core, enum rho_node_
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *source = &core->pipeline.node->assembler.sources[i];
         const bool is_of_step = due == RHO_NODE_BEARINGS
-                                    ? source->kind == RHO_SCAN_ASSEMBLER_BEARINGS
+                                    ? source->kind == RHO_SCAN_ASSEMBLER_BEARINGS &&
+                                          source->sensor_id ==
+                                              core->pipeline.node->item.bearings.sensor_id
                                     : source->kind != RHO_SCAN_ASSEMBLER_BEARINGS &&
                                           source->sensor_id == core->pipeline.node->scan.sensor_id;
 

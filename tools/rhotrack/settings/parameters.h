@@ -60,7 +60,7 @@
     X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
       "bearing noise of a passive sensor")                                                         \
     X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
-      "looks of passive sensors within it make one row of each track")                             \
+      "looks of passive sensors within it are one frame of initiate")                              \
     X(PD, "pd", "-", 0.9, 0.01, 0.999, 0, 1, "assumed probability of detection")                   \
     X(V_MIN_MPS, "v_min_mps", "m/s", 0, 0, 2e4, 0, 1,                                              \
       "slowest target; what is surely slower is none")                                             \

@@ -12,12 +12,15 @@
 struct merged_inputs {
     struct plot_reader *scan_reader;       /* NULL: no files of plots */
     struct bearing_reader *bearing_reader; /* NULL: no files of bearings */
-    /* next scan and next frame, read ahead */
+    /* next scan, and next looks of one time out of the reader's frame, read ahead */
     const struct rho_scan *scan;
     const struct rho_sensor *sensor;
-    const struct rho_frame *frame;
-    bool has_scan, has_frame; /* the scan or frame that was read ahead has not been handed out */
-    uint64_t bytes;           /* bytes of all files; 0: not known */
+    const struct rho_frame *frame; /* NULL: all its looks were handed out */
+    int64_t taken_us;              /* time of its looks that were taken last */
+    struct rho_frame looks;
+    struct rho_bearing_scan *scans; /* room for the looks */
+    bool has_scan, has_looks;       /* what was read ahead has not been handed out */
+    uint64_t bytes;                 /* bytes of all files; 0: not known */
 };
 
 /* Kinds of scans in a file, LOG_HAS_... or-ed: a table has one kind, a log may have both. */
@@ -55,12 +58,45 @@ static void read_ahead_next_plot_scan(struct merged_inputs *inputs)
     }
 }
 
-/* Reads the next frame of bearings unless one is waiting to be handed out. */
-static void read_ahead_next_frame(struct merged_inputs *inputs)
+/* Takes the earliest looks of the frame that were not taken, those of one time. */
+static void take_looks_of_one_time(struct merged_inputs *inputs)
 {
-    if (inputs->bearing_reader && !inputs->has_frame) {
+    const struct rho_frame *whole = inputs->frame;
+    int64_t time_us = INT64_MAX;
+
+    inputs->looks.num_scans = 0;
+    for (uint32_t i = 0; i < whole->num_scans; i++) {
+        if (whole->scans[i].time_us > inputs->taken_us && whole->scans[i].time_us < time_us) {
+            time_us = whole->scans[i].time_us;
+        }
+    }
+    inputs->looks.time_us = inputs->taken_us = time_us;
+    for (uint32_t i = 0; i < whole->num_scans; i++) {
+        if (whole->scans[i].time_us == time_us) {
+            inputs->scans[inputs->looks.num_scans++] = whole->scans[i];
+        }
+    }
+    inputs->looks.scans = inputs->scans;
+    inputs->has_looks = inputs->looks.num_scans > 0;
+}
+
+/* Reads the next looks of bearings of one time, unless some wait to be handed out. */
+static void read_ahead_next_looks(struct merged_inputs *inputs)
+{
+    if (!inputs->bearing_reader || inputs->has_looks) {
+        return;
+    }
+    if (inputs->frame) {
+        take_looks_of_one_time(inputs);
+    }
+    if (!inputs->has_looks) {
         inputs->frame = bearing_reader_next(inputs->bearing_reader);
-        inputs->has_frame = inputs->frame;
+        if (inputs->frame) {
+            inputs->taken_us = INT64_MIN;
+            inputs->scans = must_realloc(inputs->scans, ((size_t)inputs->frame->num_scans + 1) *
+                                                            sizeof *inputs->scans);
+            take_looks_of_one_time(inputs);
+        }
     }
 }
 
@@ -103,7 +139,7 @@ struct merged_inputs *merged_inputs_open(char *const *paths, int num_paths,
     free(sorted);
     inputs->bytes = sum_reader_bytes(paths, num_paths);
     read_ahead_next_plot_scan(inputs);
-    read_ahead_next_frame(inputs);
+    read_ahead_next_looks(inputs);
     return inputs;
 }
 
@@ -134,15 +170,15 @@ bool merged_inputs_have_bearings(const struct merged_inputs *inputs)
 struct input merged_inputs_next(struct merged_inputs *inputs)
 {
     read_ahead_next_plot_scan(inputs);
-    read_ahead_next_frame(inputs);
+    read_ahead_next_looks(inputs);
     if (inputs->has_scan &&
-        (!inputs->has_frame || inputs->scan->time_us <= inputs->frame->time_us)) {
+        (!inputs->has_looks || inputs->scan->time_us <= inputs->looks.time_us)) {
         inputs->has_scan = false;
         return (struct input){.scan = inputs->scan, .sensor = inputs->sensor};
     }
-    if (inputs->has_frame) {
-        inputs->has_frame = false;
-        return (struct input){.frame = inputs->frame};
+    if (inputs->has_looks) {
+        inputs->has_looks = false;
+        return (struct input){.frame = &inputs->looks};
     }
     return (struct input){.scan = NULL};
 }
@@ -197,5 +233,6 @@ void merged_inputs_close(struct merged_inputs *inputs)
         plot_reader_close(inputs->scan_reader);
     }
     bearing_reader_close(inputs->bearing_reader);
+    free(inputs->scans);
     free(inputs);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * merged_inputs: reads files of plots and files of bearings together, merged by time, as
- * scans of plots and frames of bearings; at equal times the scan of plots comes first. Memory does
- * not grow with the files.
+ * scans of plots and frames of bearings, looks of one time; at equal times the scan of plots comes
+ * first. Memory does not grow with the files.
  */
 #ifndef RHOTRACK_TOOL_MERGED_INPUTS_H
 #define RHOTRACK_TOOL_MERGED_INPUTS_H
