@@ -27,7 +27,8 @@ SETTINGS = {"pd": 0.99, "score_min_nat": -3}
 
 def rows(path):
     with path.open(encoding="utf-8", newline="") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return [{key: float(value) for key, value in row.items() if value}
+                for row in csv.DictReader(file)]
 
 
 def distance_m(track, target):
