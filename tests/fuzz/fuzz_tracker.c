@@ -1232,12 +1232,12 @@ static void step_frame(struct script *script)
     const unsigned how = read_byte(script);
     const struct rho_frame frame = make_frame(script, how, &seen);
 
-    touched = TRACKER | (how & 8 ? 0u : PASSIVE(0));
     for (uint32_t s = 0; frame.scans && s < frame.num_scans; s++) {
         const struct rho_bearing_scan *look = &frame.scans[s];
         enum rho_status status;
 
-        copy_objects_before();
+        copy_objects_before(); /* what the look before it has touched */
+        touched = TRACKER | (how & 8 ? 0u : PASSIVE(0));
         status = rho_tracker_step_bearings(&chain.tracker, how & 8 ? NULL : &chain.passives[0],
                                            look, &chain.report);
         if (status == RHO_OK) {
