@@ -147,12 +147,12 @@ static int64_t scan_waiting_time_us(const struct node_core *core, enum rho_node_
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *source = &core->pipeline.node->assembler.sources[i];
-        const bool is_of_step = due == RHO_NODE_BEARINGS
-                                    ? source->kind == RHO_SCAN_ASSEMBLER_BEARINGS &&
-                                          source->sensor_id ==
-                                              core->pipeline.node->item.bearings.sensor_id
-                                    : source->kind != RHO_SCAN_ASSEMBLER_BEARINGS &&
-                                          source->sensor_id == core->pipeline.node->scan.sensor_id;
+        const bool is_of_step =
+            due == RHO_NODE_BEARINGS
+                ? source->kind == RHO_SCAN_ASSEMBLER_BEARINGS &&
+                      source->sensor_id == core->pipeline.node->item.bearings.sensor_id
+                : source->kind != RHO_SCAN_ASSEMBLER_BEARINGS &&
+                      source->sensor_id == core->pipeline.node->scan.sensor_id;
 
         if (source->is_used && is_of_step && source->heard_us > heard_us) {
             heard_us = source->heard_us;

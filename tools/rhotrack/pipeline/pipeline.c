@@ -221,13 +221,19 @@ static void add_look_to_frame(struct frame_report *of_frame, const struct rho_re
     }
 }
 
+/* A look of a frame. */
+struct look {
+    const struct rho_bearing_scan *scan;
+};
+
 static int compare_looks_by_time(const void *a, const void *b)
 {
-    const struct rho_bearing_scan *const *first = a, *const *second = b;
-    const int64_t first_us = (*first)->time_us, second_us = (*second)->time_us;
+    const struct rho_bearing_scan *first = ((const struct look *)a)->scan;
+    const struct rho_bearing_scan *second = ((const struct look *)b)->scan;
 
-    return first_us != second_us ? (first_us > second_us) - (first_us < second_us)
-                                 : (*first > *second) - (*first < *second);
+    return first->time_us != second->time_us
+               ? (first->time_us > second->time_us) - (first->time_us < second->time_us)
+               : (first > second) - (first < second);
 }
 
 void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame,
@@ -235,23 +241,23 @@ void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *fram
 {
     struct rho_report *report = &pipeline->node->report;
     struct frame_report of_frame = {.num_ended = 0};
-    const struct rho_bearing_scan **looks =
-        must_calloc((size_t)frame->num_scans + 1, sizeof *looks);
+    struct look *looks = must_calloc((size_t)frame->num_scans + 1, sizeof *looks);
     uint32_t num_bearings = 0;
 
     for (uint32_t i = 0; i < frame->num_scans; i++) {
-        looks[i] = &frame->scans[i];
+        looks[i].scan = &frame->scans[i];
     }
     qsort(looks, frame->num_scans, sizeof *looks, compare_looks_by_time);
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         uint32_t first = 0;
 
-        must_succeed(rho_node_step_bearings(pipeline->node, looks[i]), "step");
-        for (const struct rho_bearing_scan *before = frame->scans; before < looks[i]; before++) {
+        must_succeed(rho_node_step_bearings(pipeline->node, looks[i].scan), "step");
+        for (const struct rho_bearing_scan *before = frame->scans; before < looks[i].scan;
+             before++) {
             first += before->num_bearings;
         }
         add_look_to_frame(&of_frame, report, first);
-        num_bearings += looks[i]->num_bearings;
+        num_bearings += looks[i].scan->num_bearings;
         if (after_look) {
             after_look(context);
         }
