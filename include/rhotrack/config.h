@@ -315,7 +315,7 @@
 #define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 2048)
 #endif
 
-/* Fitted candidates of passive tracks. RAM: 24 bytes each, 1 a sensor and frame. 8 .. 255. */
+/* Fitted candidates of passive tracks. RAM: 24 bytes each, 1 a sensor and row. 8 .. 255. */
 #ifndef RHO_MAX_PASSIVE_CANDIDATES
 #define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
 #endif

@@ -36,7 +36,7 @@ enum {
     RHO_PASSIVE_STATES
 };
 
-/* Time of a look, from -1 for the first row's to 1 for the newest frame's, and its place. */
+/* Time of a look, from -1 for the first row's to 1 for the newest look's, and its place. */
 struct rho_passive_look {
     float step, x_m, y_m, z_m;
 };
@@ -47,7 +47,7 @@ struct rho_passive_search {
     struct rho_passive_known *known; /* the tracks that are challenged, and safe ones */
     uint32_t num_known;
     float middle_x_m, middle_y_m; /* centroid of the places of all looks */
-    float half_s;                 /* half the time from the first row to the newest frame */
+    float half_s;                 /* half the time from the first row to the newest look */
     struct rho_passive_look at[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     float hit_nat; /* score of a bearing with a density of 1 per radian */
     /* score of a look in which the track's position was in view but got no bearing */

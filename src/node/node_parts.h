@@ -93,9 +93,6 @@ static inline int rho_node_is_bearings_by_paper(const struct rho_node *node)
 /* node_setup.c: begins anew on another clock (node.h) */
 void rho_node_restart(struct rho_node *node);
 
-/* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
-int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id);
-
 /* Describes a sensor to the tracker; returns 0 where that refuses it. */
 int rho_node_sensor_describe(struct rho_node *node, const struct rho_sensor *sensor);
 

@@ -2,7 +2,8 @@
 /* node_sensors: describes sensors to the tracker, which forgets silent ones for want of room. */
 #include "node_parts.h"
 
-int rho_node_sensor_is_heard(const struct rho_node *node, int32_t sensor_id)
+/* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
+static int is_heard(const struct rho_node *node, int32_t sensor_id)
 {
     const struct rho_scan_assembler *assembler = &node->assembler;
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -21,8 +22,7 @@ static void forget_silent_sensors(struct rho_node *node)
     struct rho_tracker *tracker = &node->tracker;
     for (unsigned i = tracker->num_sensors; i-- > 0;) {
         int32_t sensor_id = tracker->sensors[i].sensor.sensor_id;
-        if (!rho_node_sensor_is_heard(node, sensor_id) &&
-            rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
+        if (!is_heard(node, sensor_id) && rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
             node->counters.sensors_forgotten = rho_count(node->counters.sensors_forgotten, 1);
         }
     }
