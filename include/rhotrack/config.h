@@ -325,9 +325,9 @@
 #define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 32)
 #endif
 
-/* Directions by which bearings are looked up. RAM: a bit each. A multiple of 32, 32 .. 4096. */
+/* Directions by which bearings are looked up. RAM: a bit each, bearing, sensor and row. 32 .. 4096. */
 #ifndef RHO_PASSIVE_BINS
-#define RHO_PASSIVE_BINS RHO_CONFIG_PICK(256, 1024)
+#define RHO_PASSIVE_BINS RHO_CONFIG_PICK(128, 256)
 #endif
 
 /* The papers' methods (hough.h, passive_paper.h, paper_starts.h, publish.h). */

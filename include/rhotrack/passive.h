@@ -73,6 +73,17 @@ struct rho_passive_work {
     uint32_t candidates_dropped; /* beyond RHO_MAX_PASSIVE_CANDIDATES, or _TRACKS where chosen */
 };
 
+/* Bearings of a look, a bit each. */
+#if RHO_MAX_BEARINGS <= 8
+typedef uint8_t rho_bearing_set;
+#elif RHO_MAX_BEARINGS <= 16
+typedef uint16_t rho_bearing_set;
+#elif RHO_MAX_BEARINGS <= 32
+typedef uint32_t rho_bearing_set;
+#else
+typedef uint64_t rho_bearing_set;
+#endif
+
 /*
  * A crossing that was not pruned, with covariance, relative to the looks' centroid. Of two times,
  * it is where the bearings' rays meet, with the way of a target between them as an error.
@@ -83,6 +94,8 @@ struct rho_passive_point {
     uint8_t scan;
     uint8_t sensors;    /* those of its bearings: 8 a + b */
     uint8_t bearing[2]; /* indices of its bearings in their looks */
+    uint8_t claim[RHO_MAX_PASSIVE_SENSORS]; /* indices of all bearings towards it, from 1; 0: none */
+    float evidence_nat; /* log-likelihood ratio of those of other sensors */
 };
 
 /* A crossing's partner: both together are a hypothesis of constant velocity. */
@@ -142,10 +155,10 @@ struct rho_passive {
     uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
     /* from here on: scratch memory of a search */
     /*
-     * directions near bearings of each look: bit set if a bearing is within 6 sigmas; bins count
-     * around |x| + |y| = 1 from south
+     * of each look the bearings within 6 sigmas of a direction; bins count around |x| + |y| = 1
+     * from south
      */
-    uint32_t directions[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS / 32];
+    rho_bearing_set near[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS];
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
     struct rho_passive_partner partners[RHO_MAX_PASSIVE_POINTS][RHO_PASSIVE_PARTNERS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];

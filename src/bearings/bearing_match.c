@@ -41,10 +41,10 @@ void rho_passive_mark_directions(struct rho_passive_search *search)
 {
     const float rounding_rad = 1.0e-5f; /* bound of the rounding error of a direction */
     struct rho_passive *passive = search->passive;
-    memset(passive->directions, 0, sizeof passive->directions);
+    memset(passive->near, 0, sizeof passive->near);
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            uint32_t *bins = passive->directions[k][s];
+            rho_bearing_set *bins = passive->near[k][s];
             for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
                 const struct rho_batch_bearing *at = &passive->batch.bearings[k][s][i];
                 float sine = MATCH_SIGMAS * floored_sigma_rad(search, at) + rounding_rad;
@@ -55,27 +55,24 @@ void rho_passive_mark_directions(struct rho_passive_search *search)
                                              at->sine * cosine - at->cosine * sine);
                 unsigned last = direction_bin(at->cosine * cosine - at->sine * sine,
                                               at->sine * cosine + at->cosine * sine);
+                const rho_bearing_set bit = (rho_bearing_set)((rho_bearing_set)1 << i);
                 for (; bin != last; bin = (bin + 1u) % RHO_PASSIVE_BINS) {
-                    bins[bin / 32u] |= 1u << bin % 32u;
+                    bins[bin] = (rho_bearing_set)(bins[bin] | bit);
                 }
-                bins[last / 32u] |= 1u << last % 32u;
+                bins[last] = (rho_bearing_set)(bins[last] | bit);
             }
         }
     }
 }
 
 /*
- * Tests the marked bins: 0 means that no bearing of the look is within MATCH_SIGMAS of the
- * direction, or that the range is 0 or far too large.
+ * The bearings of a look that may be within MATCH_SIGMAS of the direction; none where the range is 0
+ * or far too large.
  */
-static int may_have_bearing_near(const uint32_t *bins, struct rho_passive_offset offset)
+static rho_bearing_set bearings_near(const rho_bearing_set *bins, struct rho_passive_offset offset)
 {
     float size_m2 = squared_range_m2(offset);
-    if (!(size_m2 > 1.0f && size_m2 < 1.0e24f)) {
-        return 0;
-    }
-    unsigned bin = direction_bin(offset.x_m, offset.y_m);
-    return (int)(bins[bin / 32u] >> bin % 32u & 1u);
+    return size_m2 > 1.0f && size_m2 < 1.0e24f ? bins[direction_bin(offset.x_m, offset.y_m)] : 0;
 }
 
 /* Height that the slope of a bearing tells at the state's range, above the state's. */
@@ -112,6 +109,7 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
                                                      unsigned scan, unsigned sensor,
                                                      struct rho_passive_offset offset, int matching)
 {
+    rho_bearing_set near = bearings_near(search->passive->near[scan][sensor], offset);
     const unsigned most_claimed = (unsigned)matching & RHO_PASSIVE_ALSO_CLAIMED;
     const int by_slope = search->has_slopes && ((unsigned)matching & RHO_PASSIVE_BY_SLOPE);
     const struct rho_passive *passive = search->passive;
@@ -119,7 +117,10 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
     /* squared cross range that is MATCH_SIGMAS for the initial sigma of 1 / MATCH_SIGMAS rad */
     float least_m2 = squared_range_m2(offset), least_sigma_rad = 1.0f / MATCH_SIGMAS;
     int nearest = -1;
-    for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
+    for (unsigned i = 0; near > 0; i++, near = (rho_bearing_set)(near >> 1)) {
+        if (!(near & 1u)) {
+            continue;
+        }
         float off_m2 = rho_square(bearings[i].sine * offset.x_m - bearings[i].cosine * offset.y_m);
         float sigma_rad = floored_sigma_rad(search, &bearings[i]);
         if (by_slope && bearings[i].sigma_slope > 0.0f) {
@@ -145,9 +146,6 @@ struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_sear
 {
     struct rho_passive_offset offset =
         rho_passive_offset_from_sensor(search, scan, sensor, state_m);
-    if (!may_have_bearing_near(search->passive->directions[scan][sensor], offset)) {
-        return (struct rho_passive_match){.bearing = -1};
-    }
     return find_nearest_bearing(search, scan, sensor, offset, matching);
 }
 
@@ -186,8 +184,9 @@ float rho_passive_agreement(const struct rho_passive_search *search, const float
     for (unsigned k = 0; k < num_scans && (float)left > least; k++) {
         unsigned seen = 0;
         for (unsigned s = 0; s < num_sensors; s++) {
-            unsigned is_seen = (unsigned)may_have_bearing_near(
-                passive->directions[k][s], rho_passive_offset_from_sensor(search, k, s, state_m));
+            const unsigned is_seen =
+                bearings_near(passive->near[k][s],
+                              rho_passive_offset_from_sensor(search, k, s, state_m)) > 0;
             seen |= is_seen << s;
             left -= 1u - is_seen;
         }

@@ -3,13 +3,17 @@
  * passive_crossings: phase 1 of the search. Bearings of two sensors in one scan cross; of three
  * sensors or more another one must support a crossing.
  */
+#include <string.h>
+
 #include "passive_search.h"
 #include "policy.h"
+
+/* Evidence of a crossing that another one stands for. */
+#define REPEATED_NAT (-1.0e6f)
 
 /* Two sensors in one scan. */
 struct sensor_pair {
     unsigned scan, a, b;
-    struct rho_crossing_base base;
 };
 
 /* Sigma of a target's way in this time. */
@@ -18,9 +22,12 @@ static float sigma_of_way_m(const struct rho_passive_search *search, float steps
     return 0.5f * search->passive->config.v_max_mps * search->half_s * rho_magnitude(steps);
 }
 
-/* Whether a sensor has a bearing towards the crossing, within the errors of both. */
-static int has_bearing_towards(const struct rho_passive_search *search, unsigned sensor,
-                               const struct rho_passive_point *point)
+/*
+ * Log-likelihood ratio, over a miss, of a sensor's bearing nearest to the direction of a crossing,
+ * within the errors of both; the crossing claims it. Returns whether there is one.
+ */
+static int claim_bearing_towards(const struct rho_passive_search *search, unsigned sensor,
+                                 struct rho_passive_point *point)
 {
     const struct rho_passive *passive = search->passive;
     const struct rho_passive_look *at = &search->at[point->scan][sensor];
@@ -33,17 +40,24 @@ static int has_bearing_towards(const struct rho_passive_search *search, unsigned
     float across =
         point->xx_m2 * dy_m * dy_m - 2.0f * point->xy_m2 * dx_m * dy_m + point->yy_m2 * dx_m * dx_m;
     const float way_m = sigma_of_way_m(search, at->step - rho_passive_crossing_step(search, point));
+    const float spread_m2 = across / range2 + way_m * way_m;
+    float least = SUPPORT_SIGMAS * SUPPORT_SIGMAS, nearest_m2 = 0.0f;
     for (unsigned i = 0; i < passive->batch.num_bearings[point->scan][sensor]; i++) {
         const struct rho_batch_bearing *seen = &passive->batch.bearings[point->scan][sensor][i];
         float off_m = seen->cosine * dy_m - seen->sine * dx_m;
-        float variance_m2 =
-            across / range2 + seen->sigma_rad * seen->sigma_rad * range2 + way_m * way_m;
-        if (seen->cosine * dx_m + seen->sine * dy_m > 0.0f &&
-            off_m * off_m < SUPPORT_SIGMAS * SUPPORT_SIGMAS * variance_m2) {
-            return 1;
+        float variance_m2 = spread_m2 + seen->sigma_rad * seen->sigma_rad * range2;
+        if (seen->cosine * dx_m + seen->sine * dy_m > 0.0f && off_m * off_m < least * variance_m2) {
+            least = off_m * off_m / variance_m2;
+            nearest_m2 = variance_m2;
+            point->claim[sensor] = (uint8_t)(i + 1u);
         }
     }
-    return 0;
+    if (point->claim[sensor] == 0) {
+        return 0;
+    }
+    point->evidence_nat += search->hit_nat - search->miss_nat -
+                           0.5f * (RHO_LOG_TWO_PI + least + rho_log(nearest_m2 / range2));
+    return 1;
 }
 
 static int is_at_place_of(const struct rho_passive_look *look, const struct rho_passive_look *other)
@@ -53,52 +67,64 @@ static int is_at_place_of(const struct rho_passive_look *look, const struct rho_
 }
 
 /*
- * In the first pass, with three sensors or more: all but one of those besides the pair that looked,
- * and at least one, must have a bearing towards the crossing, from places of their own.
+ * Claims the bearings towards a crossing. In the first pass, with three sensors or more: all but
+ * one of those besides the pair that looked, and at least one, must have one, from places of their
+ * own.
  */
 static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
-                        const struct rho_passive_point *point)
+                        struct rho_passive_point *point)
 {
     const struct rho_batch *batch = &search->passive->batch;
     const struct rho_passive_look *at = search->at[point->scan];
     unsigned others = 0, support = 0;
-    for (unsigned s = 0; s < batch->num_sensors && !search->is_second; s++) {
-        if (batch->was_seen[point->scan][s] && !is_at_place_of(&at[s], &at[pair->a]) &&
-            !is_at_place_of(&at[s], &at[pair->b])) {
-            others++;
-            support += (unsigned)has_bearing_towards(search, s, point);
+    point->claim[pair->a] = (uint8_t)(point->bearing[0] + 1u);
+    point->claim[pair->b] = (uint8_t)(point->bearing[1] + 1u);
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        if (batch->was_seen[point->scan][s] && s != pair->a && s != pair->b) {
+            const unsigned is_apart =
+                !is_at_place_of(&at[s], &at[pair->a]) && !is_at_place_of(&at[s], &at[pair->b]);
+            others += is_apart;
+            support += is_apart & (unsigned)claim_bearing_towards(search, s, point);
         }
     }
     return batch->num_sensors < 3 || search->is_second ||
            support >= (others > 2 ? others - 1u : 1u);
 }
 
+static int is_less_likely(const struct rho_passive_point *a, const struct rho_passive_point *b)
+{
+    return a->evidence_nat < b->evidence_nat ||
+           (!(a->evidence_nat > b->evidence_nat) &&
+            rho_passive_uncertainty_m2(a) > rho_passive_uncertainty_m2(b));
+}
+
 /*
- * Adds a crossing; a full list replaces its least certain crossing if the new one is more certain.
- * The index of the least certain one is kept until the list changes.
+ * Adds a crossing. Beyond the room of its row the least likely one goes, and before it a crossing
+ * whose bearings are all those of a more certain one: such crossings are one place.
  */
-static void store_crossing(struct rho_passive_search *search, const struct rho_passive_point *point)
+static void store_crossing(struct rho_passive_search *search, struct rho_passive_point *point)
 {
     struct rho_passive *passive = search->passive;
-    if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
+    uint32_t least = search->row_begin;
+    for (uint32_t i = search->row_begin; i < passive->num_points; i++) {
+        struct rho_passive_point *other = &passive->points[i];
+        if (memcmp(other->claim, point->claim, sizeof point->claim) == 0) {
+            const int is_better =
+                rho_passive_uncertainty_m2(point) < rho_passive_uncertainty_m2(other);
+            struct rho_passive_point *repeated = is_better ? other : point;
+            repeated->evidence_nat = rho_smaller(repeated->evidence_nat, REPEATED_NAT);
+        }
+        least = is_less_likely(other, &passive->points[least]) ? i : least;
+    }
+    if (passive->num_points < search->row_limit) {
         passive->points[passive->num_points++] = *point;
-        search->worst_point = passive->num_points;
         return;
     }
-    if (search->worst_point == passive->num_points) {
-        search->worst_point = 0;
-        for (uint32_t i = 1; i < passive->num_points; i++) {
-            if (rho_passive_uncertainty_m2(&passive->points[i]) >
-                rho_passive_uncertainty_m2(&passive->points[search->worst_point])) {
-                search->worst_point = i;
-            }
-        }
-    }
-    passive->work.points_dropped = rho_count(passive->work.points_dropped, 1);
-    if (rho_passive_uncertainty_m2(point) <
-        rho_passive_uncertainty_m2(&passive->points[search->worst_point])) {
-        passive->points[search->worst_point] = *point;
-        search->worst_point = passive->num_points;
+    const int is_repeated = !(point->evidence_nat > REPEATED_NAT) ||
+                            !(passive->points[least].evidence_nat > REPEATED_NAT);
+    passive->work.points_dropped = rho_count(passive->work.points_dropped, !is_repeated);
+    if (is_less_likely(&passive->points[least], point)) {
+        passive->points[least] = *point;
     }
 }
 
@@ -109,43 +135,60 @@ static float sigma_with_way_rad(float sigma_rad, float way_m, float range_m)
     return rho_sqrt(sigma_rad * sigma_rad + way_rad * way_rad);
 }
 
+/*
+ * Where the rays of two bearings meet, by their cosines and sines: the base's cross product with a
+ * ray is the other's range times the sine of the angle between them. Returns 0 where they do not,
+ * or where that tells no range.
+ */
+static int find_crossing(const struct rho_passive_search *search, const struct sensor_pair *pair,
+                         struct rho_passive_point *point)
+{
+    const struct rho_passive_look *at = search->at[pair->scan];
+    const struct rho_passive_look *from = &at[pair->a], *to = &at[pair->b];
+    const struct rho_batch *batch = &search->passive->batch;
+    const struct rho_batch_bearing *a = &batch->bearings[pair->scan][pair->a][point->bearing[0]];
+    const struct rho_batch_bearing *b = &batch->bearings[pair->scan][pair->b][point->bearing[1]];
+    const float most_m = search->passive->config.range_max_m;
+    const float dx_m = to->x_m - from->x_m, dy_m = to->y_m - from->y_m;
+    const float sine = a->cosine * b->sine - a->sine * b->cosine;
+    const float over_a_m = dx_m * b->sine - dy_m * b->cosine;
+    const float over_b_m = dx_m * a->sine - dy_m * a->cosine;
+    const float side = sine < 0.0f ? -1.0f : 1.0f, reach_m = side * sine * most_m;
+    if (!(side * over_a_m > 0.0f && side * over_b_m > 0.0f && side * over_a_m <= reach_m &&
+          side * over_b_m <= reach_m)) {
+        return 0;
+    }
+    const float range_a_m = over_a_m / sine, range_b_m = over_b_m / sine;
+    const float way_m = 0.5f * sigma_of_way_m(search, from->step - to->step);
+    /* a's error moves the place along b's ray, and b's error along a's ray */
+    const float along_b_m = range_a_m * sigma_with_way_rad(a->sigma_rad, way_m, range_a_m) / sine;
+    const float along_a_m = range_b_m * sigma_with_way_rad(b->sigma_rad, way_m, range_b_m) / sine;
+    const float ax_m = along_a_m * a->cosine, ay_m = along_a_m * a->sine;
+    const float bx_m = along_b_m * b->cosine, by_m = along_b_m * b->sine;
+    const float tells_m = RANGE_SHARE * rho_larger(range_a_m, range_b_m);
+    point->x_m = from->x_m + range_a_m * a->cosine;
+    point->y_m = from->y_m + range_a_m * a->sine;
+    point->xx_m2 = ax_m * ax_m + bx_m * bx_m;
+    point->xy_m2 = ax_m * ay_m + bx_m * by_m;
+    point->yy_m2 = ay_m * ay_m + by_m * by_m;
+    return rho_passive_uncertainty_m2(point) < tells_m * tells_m;
+}
+
 /* Crosses two bearings, and stores a crossing that tells a range and has support. */
 static int cross_bearings(struct rho_passive_search *search, const struct sensor_pair *pair,
                           unsigned index_a, unsigned index_b)
 {
-    const struct rho_passive_look *at = search->at[pair->scan];
-    const struct rho_batch *batch = &search->passive->batch;
-    const struct rho_batch_bearing *a = &batch->bearings[pair->scan][pair->a][index_a];
-    const struct rho_batch_bearing *b = &batch->bearings[pair->scan][pair->b][index_b];
-    const float way_m = 0.5f * sigma_of_way_m(search, at[pair->a].step - at[pair->b].step);
-    struct rho_crossing crossing;
-    float covariance_m2[3];
-    if (rho_crossing_find(&pair->base, a->bearing_rad, b->bearing_rad,
-                          search->passive->config.range_max_m, &crossing) != RHO_CROSSING_MEETS) {
-        return 0;
-    }
-    rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad,
-                            sigma_with_way_rad(a->sigma_rad, way_m, crossing.range_a_m),
-                            sigma_with_way_rad(b->sigma_rad, way_m, crossing.range_b_m),
-                            covariance_m2);
-    const struct rho_passive_point point = {.x_m = crossing.x_m,
-                                            .y_m = crossing.y_m,
-                                            .xx_m2 = covariance_m2[0],
-                                            .xy_m2 = covariance_m2[1],
-                                            .yy_m2 = covariance_m2[2],
-                                            .scan = (uint8_t)pair->scan,
-                                            .sensors = (uint8_t)(8u * pair->a + pair->b),
-                                            .bearing = {(uint8_t)index_a, (uint8_t)index_b}};
-    const float tells_m = RANGE_SHARE * rho_larger(crossing.range_a_m, crossing.range_b_m);
-    if (!(rho_passive_uncertainty_m2(&point) < tells_m * tells_m) ||
-        !is_supported(search, pair, &point)) {
+    struct rho_passive_point point = {.scan = (uint8_t)pair->scan,
+                                      .sensors = (uint8_t)(8u * pair->a + pair->b),
+                                      .bearing = {(uint8_t)index_a, (uint8_t)index_b}};
+    if (!find_crossing(search, pair, &point) || !is_supported(search, pair, &point)) {
         return 0;
     }
     store_crossing(search, &point);
     return 1;
 }
 
-static void cross_pair(struct rho_passive_search *search, struct sensor_pair *pair)
+static void cross_pair(struct rho_passive_search *search, const struct sensor_pair *pair)
 {
     struct rho_passive *passive = search->passive;
     struct rho_passive_work *work = &passive->work;
@@ -170,13 +213,13 @@ void rho_passive_find_crossings(struct rho_passive_search *search)
     search->passive->num_points = 0;
     for (unsigned scan = 0; scan < batch->num_scans; scan++) {
         const struct rho_passive_look *at = search->at[scan];
+        search->row_begin = search->passive->num_points;
+        search->row_limit = search->row_begin + (RHO_MAX_PASSIVE_POINTS - search->row_begin) /
+                                                    (batch->num_scans - scan);
         for (unsigned a = 0; a + 1u < batch->num_sensors; a++) {
             for (unsigned b = a + 1u; b < batch->num_sensors; b++) {
-                struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
-                /* sensors at one place have no base */
-                if (batch->num_bearings[scan][a] > 0 && batch->num_bearings[scan][b] > 0 &&
-                    rho_crossing_set_base(&pair.base, at[a].x_m, at[a].y_m, at[b].x_m, at[b].y_m) ==
-                        RHO_OK) {
+                const struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
+                if (!is_at_place_of(&at[a], &at[b])) { /* sensors at one place have no base */
                     cross_pair(search, &pair);
                 }
             }

@@ -59,7 +59,7 @@ struct rho_passive_search {
     int has_slopes; /* 1: some bearings have an elevation, and states a height */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
-    uint32_t worst_point; /* index of the least certain crossing; num_points: not known */
+    uint32_t row_begin, row_limit; /* of the crossings of a row in passive->points */
 };
 
 /* Elements of a state that the bearings of the search tell. */
