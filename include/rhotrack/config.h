@@ -310,7 +310,7 @@
 #define RHO_MAX_PASSIVE_SCANS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Crossings of bearings; where there are more, no track starts. RAM: 40 bytes each. 16 .. 65535. */
+/* Crossings of bearings that a search keeps, the likeliest. RAM: 44 bytes each. 16 .. 65535. */
 #ifndef RHO_MAX_PASSIVE_POINTS
 #define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 2048)
 #endif
@@ -325,7 +325,7 @@
 #define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 32)
 #endif
 
-/* Directions by which bearings are looked up. RAM: a bit each, bearing, sensor and row. 32 .. 4096. */
+/* Directions by which bearings are looked up. RAM: a bit a bearing, sensor and row. 32 .. 4096. */
 #ifndef RHO_PASSIVE_BINS
 #define RHO_PASSIVE_BINS RHO_CONFIG_PICK(128, 256)
 #endif
@@ -420,9 +420,7 @@ RHO_CONFIG_RANGE(RHO_MAX_PASSIVE_LINES, 1, 255);
 RHO_CONFIG_RANGE(RHO_PAPER_THETA_CELLS, 18, 1024);
 RHO_CONFIG_RANGE(RHO_PAPER_RHO_CELLS, 16, 4096);
 RHO_CONFIG_RANGE(RHO_MAX_PAPER_CROSSINGS, 16, 65535);
-#if RHO_PASSIVE_BINS < 32 || RHO_PASSIVE_BINS > 4096 || RHO_PASSIVE_BINS % 32 != 0
-#error "RHO_PASSIVE_BINS must be a multiple of 32, 32 .. 4096"
-#endif
+RHO_CONFIG_RANGE(RHO_PASSIVE_BINS, 32, 4096);
 RHO_CONFIG_RANGE(RHO_MAX_TRACKS, 1, 8192);
 RHO_CONFIG_RANGE(RHO_MAX_HYPOTHESES, 1, 65534);
 RHO_CONFIG_RANGE(RHO_FILTERS, 1, 7);

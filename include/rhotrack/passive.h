@@ -43,6 +43,12 @@ struct rho_passive_config {
     float field_of_view_rad; /* width of the sector in which false bearings occur: 0.01 .. 2 pi */
     /* rate of false tracks that reach the score start_mnat: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
+    /*
+     * limit of the work of a search, up to RHO_LIMIT_WORK units of some 100 instructions of a
+     * Cortex-M4; 0: none. Beyond it middle rows are not crossed, or pairs not compared or fitted:
+     * work.points_dropped and candidates_dropped tell
+     */
+    uint32_t work_max;
 };
 
 /* A track found by a search: position and constant velocity at the time of the newest scan. */
@@ -67,10 +73,13 @@ struct rho_passive_track {
 struct rho_passive_work {
     /* first pass: pairs of bearings crossed, and those that tell no place, or lack support */
     uint32_t crossings, ghosts;
-    uint32_t points_dropped; /* crossings beyond RHO_MAX_PASSIVE_POINTS, the least certain ones */
-    uint32_t hypotheses;     /* pairs of crossings whose agreement with the bearings was computed */
-    uint32_t fits;           /* fits of a state to bearings */
-    uint32_t candidates_dropped; /* beyond RHO_MAX_PASSIVE_CANDIDATES, or _TRACKS where chosen */
+    /* pairs of bearings and crossings beyond work_max, and RHO_MAX_PASSIVE_POINTS: the unlikely */
+    uint32_t points_dropped;
+    uint32_t hypotheses; /* pairs of crossings whose agreement with the bearings was computed */
+    uint32_t fits;       /* fits of a state to bearings */
+    /* beyond RHO_MAX_PASSIVE_CANDIDATES, or _TRACKS where chosen, and fits beyond work_max */
+    uint32_t candidates_dropped;
+    uint32_t spent; /* places compared with a look, and bearings near them */
 };
 
 /* Bearings of a look, a bit each. */
@@ -94,8 +103,9 @@ struct rho_passive_point {
     uint8_t scan;
     uint8_t sensors;    /* those of its bearings: 8 a + b */
     uint8_t bearing[2]; /* indices of its bearings in their looks */
-    uint8_t claim[RHO_MAX_PASSIVE_SENSORS]; /* indices of all bearings towards it, from 1; 0: none */
-    float evidence_nat; /* log-likelihood ratio of those of other sensors */
+    /* of each sensor the bearing towards it, from 1, 0: none; with the ratio of the others' */
+    uint8_t claim[RHO_MAX_PASSIVE_SENSORS];
+    float evidence_nat;
 };
 
 /* A crossing's partner: both together are a hypothesis of constant velocity. */
@@ -158,7 +168,7 @@ struct rho_passive {
      * of each look the bearings within 6 sigmas of a direction; bins count around |x| + |y| = 1
      * from south
      */
-    rho_bearing_set near[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS];
+    rho_bearing_set nearby[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS];
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
     struct rho_passive_partner partners[RHO_MAX_PASSIVE_POINTS][RHO_PASSIVE_PARTNERS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
@@ -168,7 +178,8 @@ struct rho_passive {
 };
 
 /*
- * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi. Constant cost.
+ * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, RHO_WORK_MAX. Constant
+ * cost.
  */
 void rho_passive_config_default(struct rho_passive_config *config);
 
@@ -205,7 +216,7 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
  * Searches the batch for tracks, from bearings without an owner. Results: passive->tracks[0 ..
  * num_tracks - 1].
  * Errors: NULL, STATE (not initialised). Fewer than 3 rows, or one sensor: RHO_OK and no track.
- * Cost: src/DESIGN.md. Stack: 3.5 KB (embedded profile).
+ * Cost: work_max, and the choice among candidates. Stack: 3.5 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 

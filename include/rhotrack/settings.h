@@ -225,8 +225,8 @@ RHO_MUST_CHECK enum rho_status rho_settings_check(const struct rho_settings *set
  *              two scan intervals, at most 60 s
  *   initiator  v_min, v_max, pd, false_tracks_per_hour, scans, min_scans, work_max, area; turn_mps2
  *              becomes a fifth of accel_max_mps2: targets turn that hard for a whole window
- *   passive    v_max, pd, false_tracks_per_hour; range_max_m, at least 1 and at most 500 km.
- *              `scans`, the rows of its batch, stays as it is
+ *   passive    v_max, pd, false_tracks_per_hour, work_max; range_max_m, at least 1 and at most 500
+ *              km. `scans`, the rows of its batch, stays as it is
  * Constant cost.
  */
 void rho_settings_apply(const struct rho_settings *settings, struct rho_tracker_config *tracker,

@@ -170,7 +170,7 @@ struct rho_tracker_counters {
     /* starts refused, and tentative tracks ended for another one, as RHO_MAX_TRACKS were there */
     uint32_t tracks_no_room;
     uint32_t gate_plots_dropped; /* plots in a track's gate beyond RHO_MAX_GATE_PLOTS */
-    /* candidates of a search beyond RHO_MAX_CANDIDATES; of bearings, crossings that had no room */
+    /* candidates of a search beyond RHO_MAX_CANDIDATES; of bearings, crossings beyond room and work */
     uint32_t candidates_dropped;
     uint32_t updates_refused;   /* numerically impossible updates: the track counts a miss */
     uint32_t hypotheses_cut;    /* hypotheses beyond RHO_MAX_HYPOTHESES */

@@ -41,10 +41,10 @@ void rho_passive_mark_directions(struct rho_passive_search *search)
 {
     const float rounding_rad = 1.0e-5f; /* bound of the rounding error of a direction */
     struct rho_passive *passive = search->passive;
-    memset(passive->near, 0, sizeof passive->near);
+    memset(passive->nearby, 0, sizeof passive->nearby);
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            rho_bearing_set *bins = passive->near[k][s];
+            rho_bearing_set *bins = passive->nearby[k][s];
             for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
                 const struct rho_batch_bearing *at = &passive->batch.bearings[k][s][i];
                 float sine = MATCH_SIGMAS * floored_sigma_rad(search, at) + rounding_rad;
@@ -100,53 +100,59 @@ static inline struct rho_passive_match match_with(const struct rho_passive_searc
     return match;
 }
 
+/* The bearing of a look that is nearest to an offset. */
+struct nearest {
+    int bearing; /* -1: none within MATCH_SIGMAS */
+    float share; /* its squared residual, 1 at MATCH_SIGMAS */
+};
+
 /*
- * The bearing of a look with the smallest normalised residual, within MATCH_SIGMAS. The sine of the
- * residual (cross range / range) stands for the angle, and squares are compared: this needs neither
- * arctangent nor square root. A slope's residual is scaled to count as one of the bearing.
+ * The sine of the residual (cross range / range) stands for the angle: this needs neither arctangent
+ * nor square root. A slope's residual is scaled to count as one of the bearing.
  */
-static struct rho_passive_match find_nearest_bearing(const struct rho_passive_search *search,
-                                                     unsigned scan, unsigned sensor,
-                                                     struct rho_passive_offset offset, int matching)
+static inline struct nearest find_nearest(const struct rho_passive_search *search, unsigned scan,
+                                          unsigned sensor, struct rho_passive_offset offset,
+                                          int matching)
 {
-    rho_bearing_set near = bearings_near(search->passive->near[scan][sensor], offset);
+    const struct rho_passive *passive = search->passive;
     const unsigned most_claimed = (unsigned)matching & RHO_PASSIVE_ALSO_CLAIMED;
     const int by_slope = search->has_slopes && ((unsigned)matching & RHO_PASSIVE_BY_SLOPE);
-    const struct rho_passive *passive = search->passive;
-    const struct rho_batch_bearing *bearings = passive->batch.bearings[scan][sensor];
-    /* squared cross range that is MATCH_SIGMAS for the initial sigma of 1 / MATCH_SIGMAS rad */
-    float least_m2 = squared_range_m2(offset), least_sigma_rad = 1.0f / MATCH_SIGMAS;
-    int nearest = -1;
-    for (unsigned i = 0; near > 0; i++, near = (rho_bearing_set)(near >> 1)) {
-        if (!(near & 1u)) {
+    const struct rho_batch_bearing *bearing = passive->batch.bearings[scan][sensor];
+    const uint8_t *is_claimed = passive->is_claimed[scan][sensor];
+    rho_bearing_set left = bearings_near(passive->nearby[scan][sensor], offset);
+    struct nearest nearest = {.bearing = -1, .share = 1.0f};
+    const float reach_m2 = rho_square(MATCH_SIGMAS) * squared_range_m2(offset);
+    uint32_t compared = 0;
+    for (int i = 0; left > 0; i++, left = (rho_bearing_set)(left >> 1)) {
+        if (!(left & 1u)) {
             continue;
         }
-        float off_m2 = rho_square(bearings[i].sine * offset.x_m - bearings[i].cosine * offset.y_m);
-        float sigma_rad = floored_sigma_rad(search, &bearings[i]);
-        if (by_slope && bearings[i].sigma_slope > 0.0f) {
-            off_m2 += rho_square(height_above_m(&bearings[i], offset) * sigma_rad /
-                                 floored_sigma_slope(search, &bearings[i]));
+        compared++;
+        const float sigma2 = rho_square(floored_sigma_rad(search, &bearing[i]));
+        float off_m2 = rho_square(bearing[i].sine * offset.x_m - bearing[i].cosine * offset.y_m);
+        if (by_slope && bearing[i].sigma_slope > 0.0f) {
+            off_m2 += sigma2 * rho_square(height_above_m(&bearing[i], offset) /
+                                          floored_sigma_slope(search, &bearing[i]));
         }
-        if (off_m2 * rho_square(least_sigma_rad) < least_m2 * rho_square(sigma_rad) &&
-            bearings[i].cosine * offset.x_m + bearings[i].sine * offset.y_m > 0.0f &&
-            passive->is_claimed[scan][sensor][i] <= most_claimed) {
-            least_m2 = off_m2;
-            least_sigma_rad = sigma_rad;
-            nearest = (int)i;
+        if (off_m2 < nearest.share * reach_m2 * sigma2 && is_claimed[i] <= most_claimed &&
+            bearing[i].cosine * offset.x_m + bearing[i].sine * offset.y_m > 0.0f) {
+            nearest = (struct nearest){i, off_m2 / (reach_m2 * sigma2)};
         }
     }
-    return nearest < 0
-               ? (struct rho_passive_match){.bearing = -1, .offset = offset, .sigma_rad = 1.0f}
-               : match_with(search, bearings, nearest, offset);
+    rho_passive_spend(search, compared);
+    return nearest;
 }
 
 struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[N], int matching)
 {
-    struct rho_passive_offset offset =
+    const struct rho_passive_offset offset =
         rho_passive_offset_from_sensor(search, scan, sensor, state_m);
-    return find_nearest_bearing(search, scan, sensor, offset, matching);
+    const int bearing = find_nearest(search, scan, sensor, offset, matching).bearing;
+    return bearing < 0
+               ? (struct rho_passive_match){.bearing = -1}
+               : match_with(search, search->passive->batch.bearings[scan][sensor], bearing, offset);
 }
 
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
@@ -162,50 +168,17 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
                       offset);
 }
 
-float rho_passive_residual(const struct rho_passive_match *match)
-{
-    return match->cross_range_m / (rho_sqrt(squared_range_m2(match->offset)) * match->sigma_rad);
-}
-
-float rho_passive_slope_residual(const struct rho_passive_match *match)
-{
-    return match->sigma_slope > 0.0f
-               ? match->above_m / (rho_sqrt(squared_range_m2(match->offset)) * match->sigma_slope)
-               : 0.0f;
-}
-
 float rho_passive_agreement(const struct rho_passive_search *search, const float state_m[N],
                             float least)
 {
-    const struct rho_passive *passive = search->passive;
-    unsigned num_scans = passive->batch.num_scans, num_sensors = passive->batch.num_sensors;
-    uint8_t is_near[RHO_MAX_PASSIVE_SCANS] = {0}; /* bit s of look k: sensor s may see the state */
-    unsigned left = num_scans * num_sensors;
-    for (unsigned k = 0; k < num_scans && (float)left > least; k++) {
-        unsigned seen = 0;
-        for (unsigned s = 0; s < num_sensors; s++) {
-            const unsigned is_seen =
-                bearings_near(passive->near[k][s],
-                              rho_passive_offset_from_sensor(search, k, s, state_m)) > 0;
-            seen |= is_seen << s;
-            left -= 1u - is_seen;
-        }
-        is_near[k] = (uint8_t)seen;
-    }
-    /* upper bound of the agreement: each marked look counts 1 until its bearings are compared */
-    float most = (float)left;
-    for (unsigned k = 0; k < num_scans && most > least; k++) {
-        for (unsigned s = 0; s < num_sensors; s++) {
-            if (!(is_near[k] >> s & 1u)) {
-                continue;
-            }
-            struct rho_passive_match nearest = find_nearest_bearing(
-                search, k, s, rho_passive_offset_from_sensor(search, k, s, state_m),
-                !search->is_second);
-            float reach_m2 =
-                squared_range_m2(nearest.offset) * rho_square(MATCH_SIGMAS * nearest.sigma_rad);
-            float share = rho_square(nearest.cross_range_m) / reach_m2;
-            most -= 1.0f - (nearest.bearing >= 0 && share < 1.0f ? 1.0f - share : 0.0f);
+    const struct rho_batch *batch = &search->passive->batch;
+    /* upper bound of the agreement: each look counts 1 until its bearings are compared */
+    float most = (float)(batch->num_scans * batch->num_sensors);
+    for (unsigned k = 0; k < batch->num_scans && most > least; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            const struct rho_passive_offset offset =
+                rho_passive_offset_from_sensor(search, k, s, state_m);
+            most -= find_nearest(search, k, s, offset, !search->is_second).share;
         }
     }
     return most;

@@ -18,7 +18,8 @@ void rho_passive_config_default(struct rho_passive_config *config)
                                           .v_max_mps = 450.0f,
                                           .pd = 0.9f,
                                           .field_of_view_rad = RHO_PI,
-                                          .false_tracks_per_hour = 1.0f};
+                                          .false_tracks_per_hour = 1.0f,
+                                          .work_max = RHO_WORK_MAX};
 }
 
 static int is_usable(const struct rho_passive_config *config)
@@ -28,7 +29,8 @@ static int is_usable(const struct rho_passive_config *config)
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->field_of_view_rad, 0.01f, RHO_TWO_PI) &&
-           rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f);
+           rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f) &&
+           config->work_max <= RHO_LIMIT_WORK;
 }
 
 enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size,
@@ -101,9 +103,18 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
     return given;
 }
 
-/* A pass over the unclaimed bearings: crossings, and candidates through two of them. */
+/*
+ * A pass over the unclaimed bearings: crossings, pairs of them, and fits, each with a third of the
+ * pass's work. The first pass has half of what is left, the second the rest.
+ */
 static void find_candidates(struct rho_passive_search *search)
 {
+    const struct rho_passive_config *config = &search->passive->config;
+    const uint32_t spent = search->passive->work.spent;
+    const uint32_t left = config->work_max > spent ? config->work_max - spent : 0;
+    const uint32_t share = config->work_max > 0 ? left / (search->is_second ? 3u : 6u) : UINT32_MAX;
+    search->work_share = share;
+    search->work_end = rho_count(spent, share);
     rho_passive_find_crossings(search);
     rho_passive_fit_pairs(search);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * passive_crossings: phase 1 of the search. Bearings of two sensors in one scan cross; of three
- * sensors or more another one must support a crossing.
+ * sensors or more another one must support a crossing. Where there is no room for all, the bearings
+ * of the other sensors tell which are likely.
  */
 #include <string.h>
 
@@ -42,6 +43,7 @@ static int claim_bearing_towards(const struct rho_passive_search *search, unsign
     const float way_m = sigma_of_way_m(search, at->step - rho_passive_crossing_step(search, point));
     const float spread_m2 = across / range2 + way_m * way_m;
     float least = SUPPORT_SIGMAS * SUPPORT_SIGMAS, nearest_m2 = 0.0f;
+    rho_passive_spend(search, passive->batch.num_bearings[point->scan][sensor] / 4u);
     for (unsigned i = 0; i < passive->batch.num_bearings[point->scan][sensor]; i++) {
         const struct rho_batch_bearing *seen = &passive->batch.bearings[point->scan][sensor][i];
         float off_m = seen->cosine * dy_m - seen->sine * dx_m;
@@ -197,6 +199,10 @@ static void cross_pair(struct rho_passive_search *search, const struct sensor_pa
     const uint8_t *num = passive->batch.num_bearings[pair->scan];
     const unsigned most = !search->is_second; /* later unclaimed bearings alone are crossed */
     for (unsigned i = 0; i < num[pair->a]; i++) {
+        if (!rho_passive_has_work(search)) {
+            work->points_dropped = rho_count(work->points_dropped, num[pair->b]);
+            continue;
+        }
         for (unsigned j = 0; j < num[pair->b]; j++) {
             if (claimed_a[i] <= most && claimed_b[j] <= most) {
                 const unsigned is_ghost = !cross_bearings(search, pair, i, j);
@@ -211,11 +217,13 @@ void rho_passive_find_crossings(struct rho_passive_search *search)
 {
     const struct rho_batch *batch = &search->passive->batch;
     search->passive->num_points = 0;
-    for (unsigned scan = 0; scan < batch->num_scans; scan++) {
+    for (unsigned n = 0; n < batch->num_scans; n++) {
+        /* the newest row, the oldest, the next ones: what room and work lack is of the middle */
+        const unsigned scan = n % 2u == 0 ? batch->num_scans - 1u - n / 2u : n / 2u;
         const struct rho_passive_look *at = search->at[scan];
         search->row_begin = search->passive->num_points;
-        search->row_limit = search->row_begin + (RHO_MAX_PASSIVE_POINTS - search->row_begin) /
-                                                    (batch->num_scans - scan);
+        search->row_limit = search->row_begin + 2u * (RHO_MAX_PASSIVE_POINTS - search->row_begin) /
+                                                    (batch->num_scans - n + 1u);
         for (unsigned a = 0; a + 1u < batch->num_sensors; a++) {
             for (unsigned b = a + 1u; b < batch->num_sensors; b++) {
                 const struct sensor_pair pair = {.scan = scan, .a = a, .b = b};

@@ -12,28 +12,32 @@
 
 #define N RHO_PASSIVE_STATES
 
-/* Adds the linear equation row . change = residual to the normal equations of the first states. */
-static inline void add_equation(int num_states, const float row[N], float weight, float residual,
-                                struct rho_passive_equations *equations)
+/* In metres across the ray. Two by two, the rows of position and displacement are alike. */
+static inline void add_bearing_equation(float step, const struct rho_passive_match *nearest,
+                                        struct rho_passive_equations *equations)
 {
-    for (int i = 0; i < num_states; i++) {
-        for (int j = 0; j <= i; j++) {
-            equations->a[RHO_AT(i, j)] += weight * row[i] * row[j];
-        }
-        equations->b[i] += weight * row[i] * residual;
-    }
-}
-
-static void add_bearing_equation(float step, const struct rho_passive_match *nearest,
-                                 struct rho_passive_equations *equations)
-{
-    /* derivative of the bearing by the position, rad per metre */
-    float range2_m2 = rho_square(nearest->offset.x_m) + rho_square(nearest->offset.y_m);
-    float row_x = -nearest->offset.y_m / range2_m2, row_y = nearest->offset.x_m / range2_m2;
-    const float row[N] = {row_x, row_y, step * row_x, step * row_y};
-    float weight = 1.0f / (rho_square(nearest->sigma_rad) + rho_square(EXACT_M) / range2_m2);
-    float residual = rho_passive_residual(nearest) * nearest->sigma_rad;
-    add_equation(RHO_PASSIVE_Z, row, weight, residual, equations);
+    const float x_m = nearest->offset.x_m, y_m = nearest->offset.y_m;
+    const float range2_m2 = x_m * x_m + y_m * y_m;
+    const float weight =
+        1.0f / (range2_m2 * (rho_square(nearest->sigma_rad) * range2_m2 + rho_square(EXACT_M)));
+    const float residual = weight * nearest->cross_range_m * rho_sqrt(range2_m2);
+    const float xx = weight * y_m * y_m, xy = -weight * x_m * y_m, yy = weight * x_m * x_m;
+    const float step2 = step * step;
+    float *a = equations->a, *b = equations->b;
+    a[RHO_AT(0, 0)] += xx;
+    a[RHO_AT(1, 0)] += xy;
+    a[RHO_AT(1, 1)] += yy;
+    a[RHO_AT(2, 0)] += step * xx;
+    a[RHO_AT(2, 1)] += step * xy;
+    a[RHO_AT(2, 2)] += step2 * xx;
+    a[RHO_AT(3, 0)] += step * xy;
+    a[RHO_AT(3, 1)] += step * yy;
+    a[RHO_AT(3, 2)] += step2 * xy;
+    a[RHO_AT(3, 3)] += step2 * yy;
+    b[0] -= y_m * residual;
+    b[1] += x_m * residual;
+    b[2] -= step * y_m * residual;
+    b[3] += step * x_m * residual;
 }
 
 /* In metres of height: a slope is linear in height and ground range. */
@@ -46,14 +50,28 @@ static void add_slope_equation(float step, const struct rho_passive_match *neare
     const float row_x = -slope * offset->x_m / range_m, row_y = -slope * offset->y_m / range_m;
     const float row[N] = {row_x, row_y, step * row_x, step * row_y, 1.0f, step};
     const float weight = 1.0f / (rho_square(nearest->sigma_slope * range_m) + rho_square(EXACT_M));
-    add_equation(N, row, weight, nearest->above_m, equations);
+    for (int i = 0; i < N; i++) {
+        for (int j = 0; j <= i; j++) {
+            equations->a[RHO_AT(i, j)] += weight * row[i] * row[j];
+        }
+        equations->b[i] += weight * row[i] * nearest->above_m;
+    }
     equations->num_slopes++;
 }
 
-static float squared_residuals(const struct rho_passive_match *nearest)
+/* Squared residual of a bearing, in sigmas; the sine stands for the angle. */
+static inline float squared_residual(const struct rho_passive_match *match)
 {
-    return rho_square(rho_passive_residual(nearest)) +
-           rho_square(rho_passive_slope_residual(nearest));
+    return rho_square(match->cross_range_m / match->sigma_rad) /
+           (rho_square(match->offset.x_m) + rho_square(match->offset.y_m));
+}
+
+/* With that of its slope. */
+static inline float squared_residuals(const struct rho_passive_match *match)
+{
+    const float slope = match->sigma_slope > 0.0f ? match->above_m / match->sigma_slope : 0.0f;
+    return squared_residual(match) +
+           rho_square(slope) / (rho_square(match->offset.x_m) + rho_square(match->offset.y_m));
 }
 
 /*
@@ -68,6 +86,28 @@ static float prior_sigma_m(const struct rho_passive_search *search, int element)
                        : config->v_max_mps * search->half_s);
 }
 
+static inline void add_match(const struct rho_passive_search *search, unsigned scan,
+                             unsigned sensor, const struct rho_passive_match *match,
+                             struct rho_passive_equations *equations)
+{
+    const float step = search->at[scan][sensor].step;
+    rho_passive_spend(search, match->sigma_slope > 0.0f ? 2u : 0u);
+    add_bearing_equation(step, match, equations);
+    if (match->sigma_slope > 0.0f) {
+        add_slope_equation(step, match, equations);
+    }
+}
+
+static void add_prior(const struct rho_passive_search *search, const float state_m[N],
+                      struct rho_passive_equations *equations)
+{
+    for (int i = 0; i < rho_passive_num_states(search); i++) {
+        const float weight = 1.0f / rho_square(prior_sigma_m(search, i));
+        equations->a[RHO_AT(i, i)] += weight;
+        equations->b[i] -= weight * state_m[i];
+    }
+}
+
 struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_search *search,
                                                        const struct rho_passive_candidate *track)
 {
@@ -75,21 +115,14 @@ struct rho_passive_equations rho_passive_equate_claims(const struct rho_passive_
     struct rho_passive_equations equations = {.b = {0}};
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_passive_match seen =
+            const struct rho_passive_match seen =
                 rho_passive_match_claimed(search, k, s, track->state_m, track->claim[k][s]);
             if (seen.bearing >= 0) {
-                add_bearing_equation(search->at[k][s].step, &seen, &equations);
-                if (seen.sigma_slope > 0.0f) {
-                    add_slope_equation(search->at[k][s].step, &seen, &equations);
-                }
+                add_match(search, k, s, &seen, &equations);
             }
         }
     }
-    for (int i = 0; i < rho_passive_num_states(search); i++) {
-        const float weight = 1.0f / rho_square(prior_sigma_m(search, i));
-        equations.a[RHO_AT(i, i)] += weight;
-        equations.b[i] -= weight * track->state_m[i];
-    }
+    add_prior(search, track->state_m, &equations);
     return equations;
 }
 
@@ -98,64 +131,84 @@ static float clipped(float v, float most)
     return v < most ? (v > -most ? v : -most) : most;
 }
 
-int rho_passive_step_to_claims(const struct rho_passive_search *search,
-                               struct rho_passive_candidate *track)
+/* A Gauss-Newton step of limited size. Returns 0 where the equations are singular. */
+static int step_towards(const struct rho_passive_search *search,
+                        struct rho_passive_equations *equations, float state_m[N])
 {
-    struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
     float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
     const int n = rho_passive_num_states(search);
-    if (rho_linalg_cholesky(n, equations.a, factor) != RHO_OK) {
+    if (rho_linalg_cholesky(n, equations->a, factor) != RHO_OK) {
         return 0;
     }
-    rho_linalg_forward(n, factor, equations.b);
-    rho_linalg_backward(n, factor, equations.b);
+    rho_linalg_forward(n, factor, equations->b);
+    rho_linalg_backward(n, factor, equations->b);
     for (int i = 0; i < n; i++) {
         /* slopes are linear in the height: it needs no small steps */
-        const float step_m =
-            i < RHO_PASSIVE_Z ? clipped(equations.b[i], STEP_MAX_RANGES * range_m) : equations.b[i];
-        track->state_m[i] = clipped(track->state_m[i] + step_m, POSITION_MAX_RANGES * range_m);
+        const float step_m = i < RHO_PASSIVE_Z ? clipped(equations->b[i], STEP_MAX_RANGES * range_m)
+                                               : equations->b[i];
+        state_m[i] = clipped(state_m[i] + step_m, POSITION_MAX_RANGES * range_m);
     }
     return 1;
 }
 
-/* Claims the nearest bearing of each look within the gate, of those that may match. */
-static void claim_within(const struct rho_passive_search *search, float gate, int matching,
-                         struct rho_passive_candidate *track)
+int rho_passive_step_to_claims(const struct rho_passive_search *search,
+                               struct rho_passive_candidate *track)
 {
-    const struct rho_batch *batch = &search->passive->batch;
-    memset(track->claim, 0, sizeof track->claim);
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_passive_match nearest =
-                rho_passive_match_nearest(search, k, s, track->state_m, matching);
-            nearest.sigma_slope = matching & RHO_PASSIVE_BY_SLOPE ? nearest.sigma_slope : 0.0f;
-            if (nearest.bearing >= 0 && squared_residuals(&nearest) < rho_square(gate)) {
-                track->claim[k][s] = (uint8_t)(nearest.bearing + 1);
-            }
-        }
+    struct rho_passive_equations equations = rho_passive_equate_claims(search, track);
+    return step_towards(search, &equations, track->state_m);
+}
+
+/* The nearest bearing of a look within a gate, of those that may match; bearing -1: none. */
+static inline struct rho_passive_match match_within(const struct rho_passive_search *search,
+                                                    float gate, int matching, unsigned scan,
+                                                    unsigned sensor, const float state_m[N])
+{
+    struct rho_passive_match nearest =
+        rho_passive_match_nearest(search, scan, sensor, state_m, matching);
+    if (nearest.bearing >= 0) {
+        const float chi2 = matching & RHO_PASSIVE_BY_SLOPE ? squared_residuals(&nearest)
+                                                           : squared_residual(&nearest);
+        nearest.bearing = chi2 < rho_square(gate) ? nearest.bearing : -1;
     }
+    return nearest;
 }
 
 void rho_passive_claim_nearest(const struct rho_passive_search *search, int matching,
                                struct rho_passive_candidate *track)
 {
-    claim_within(search, BEARING_GATE_SIGMAS, matching, track);
+    const struct rho_batch *batch = &search->passive->batch;
+    memset(track->claim, 0, sizeof track->claim);
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            track->claim[k][s] =
+                (uint8_t)(match_within(search, BEARING_GATE_SIGMAS, matching, k, s, track->state_m)
+                              .bearing +
+                          1);
+        }
+    }
 }
 
 void rho_passive_fit_nearest(const struct rho_passive_search *search, int has_height,
                              float state_m[N])
 {
     static const float gates[4] = {8.0f, 5.0f, BEARING_GATE_SIGMAS, BEARING_GATE_SIGMAS};
-    struct rho_passive_candidate fitted;
+    const struct rho_batch *batch = &search->passive->batch;
     int goes_on = 1;
-    memcpy(fitted.state_m, state_m, sizeof fitted.state_m);
     for (unsigned step = 0; step < 4 && goes_on; step++) {
-        claim_within(search, gates[step],
-                     step > 0 || has_height ? RHO_PASSIVE_BY_SLOPE : RHO_PASSIVE_UNCLAIMED,
-                     &fitted);
-        goes_on = rho_passive_step_to_claims(search, &fitted);
+        const int matching = step > 0 || has_height ? RHO_PASSIVE_BY_SLOPE : RHO_PASSIVE_UNCLAIMED;
+        struct rho_passive_equations equations = {.b = {0}};
+        for (unsigned k = 0; k < batch->num_scans; k++) {
+            for (unsigned s = 0; s < batch->num_sensors; s++) {
+                const struct rho_passive_match nearest =
+                    match_within(search, gates[step], matching, k, s, state_m);
+                if (nearest.bearing >= 0) {
+                    add_match(search, k, s, &nearest, &equations);
+                }
+            }
+        }
+        add_prior(search, state_m, &equations);
+        goes_on = step_towards(search, &equations, state_m);
     }
-    memcpy(state_m, fitted.state_m, sizeof fitted.state_m);
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
 

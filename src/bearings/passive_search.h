@@ -59,8 +59,22 @@ struct rho_passive_search {
     int has_slopes; /* 1: some bearings have an elevation, and states a height */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
-    uint32_t row_begin, row_limit; /* of the crossings of a row in passive->points */
+    /* the work spent at which a phase ends, and what another phase may spend */
+    uint32_t work_end, work_share;
+    uint32_t row_begin, row_limit; /* of a row's crossings in passive->points, and of its room */
 };
+
+static inline int rho_passive_has_work(const struct rho_passive_search *search)
+{
+    return search->passive->work.spent < search->work_end;
+}
+
+/* Counts the comparison of a place with bearings of a look, so many of them near it. */
+static inline void rho_passive_spend(const struct rho_passive_search *search, uint32_t near)
+{
+    struct rho_passive_work *work = &search->passive->work;
+    work->spent = rho_count(work->spent, 1u + near);
+}
 
 /* Elements of a state that the bearings of the search tell. */
 static inline int rho_passive_num_states(const struct rho_passive_search *search)
@@ -146,10 +160,6 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    unsigned claim);
-/* Measured minus predicted bearing of a match, divided by the bearing's sigma. */
-float rho_passive_residual(const struct rho_passive_match *match);
-/* The same of its slope; 0 where it has none. */
-float rho_passive_slope_residual(const struct rho_passive_match *match);
 /*
  * Marks, for each look, the directions within six sigmas of a bearing, for a quick test. Needed
  * before states are matched with nearest bearings.

@@ -120,7 +120,7 @@
  */
 #define SPEED_SLACK_MPS 150.0f
 /* Pairs that are fitted in a pass. Half: true pairs are missed among ghosts. Twice: the time. */
-#define FITS_MAX 96u
+#define FITS_MAX (2u * RHO_MAX_PASSIVE_CANDIDATES)
 
 /* passive_prepare.c */
 

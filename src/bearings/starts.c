@@ -79,12 +79,20 @@ static void list_partners(struct rho_passive_search *search)
     for (uint32_t i = 0; i < passive->num_points; i++) {
         struct rho_passive_partner *best = passive->partners[i];
         memset(best, 0, sizeof passive->partners[i]);
+        /* each has a like share of the work, and the newest row's, which come first, before others */
+        const uint32_t spent = passive->work.spent;
+        const uint32_t left = search->work_end > spent ? search->work_end - spent : 0;
+        const uint32_t end = rho_count(spent, left / (passive->num_points - i));
         for (uint32_t j = 0; j < passive->num_points; j++) {
             float state_m[RHO_PASSIVE_STATES];
             if (passive->points[j].scan < passive->points[i].scan + apart ||
                 !rho_passive_connect_crossings(search, &passive->points[i], &passive->points[j],
                                                state_m)) {
                 continue;
+            }
+            if (passive->work.spent >= end) {
+                passive->work.points_dropped = rho_count(passive->work.points_dropped, 1);
+                break;
             }
             unsigned place = RHO_PASSIVE_PARTNERS - 1u;
             const uint16_t agreement =
@@ -147,7 +155,9 @@ static int find_height(const struct rho_passive_search *search, const struct rho
 void rho_passive_fit_pairs(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
+    search->work_end = rho_count(passive->work.spent, search->work_share);
     list_partners(search);
+    search->work_end = rho_count(passive->work.spent, search->work_share);
     for (unsigned fits = 0; fits < FITS_MAX;) {
         struct rho_passive_partner *best = 0;
         uint32_t of = 0;
@@ -161,6 +171,10 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
             }
         }
         if (!best) {
+            return;
+        }
+        if (!rho_passive_has_work(search)) {
+            passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
             return;
         }
         const struct rho_passive_point *a = &passive->points[of];

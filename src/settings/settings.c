@@ -109,6 +109,7 @@ void rho_settings_apply(const struct rho_settings *settings, struct rho_tracker_
         passive->v_max_mps = settings->v_max_mps;
         passive->pd = settings->pd;
         passive->false_tracks_per_hour = settings->false_tracks_per_hour;
+        passive->work_max = settings->work_max;
     }
 }
 

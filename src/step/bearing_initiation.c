@@ -268,7 +268,6 @@ void rho_step_initiate_bearings(struct step *step, const struct rho_batch_owner 
     const uint32_t dropped =
         rho_count(passive->work.candidates_dropped, passive->work.points_dropped);
     counters->candidates_dropped = rho_count(counters->candidates_dropped, dropped);
-    /* where crossings were left out, margins are unknown: rivals may be among them */
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];
         /* without a bearing of the last two scans, a started track may claim the newer ones */

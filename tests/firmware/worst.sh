@@ -18,7 +18,7 @@ keeps() { # the promise, and what the processor has time for
     printf '%-10s %10d of %10d promised, %10d in time\n' "$1" "$instructions" \
         "$((a + b * work_max))" "$most"
     [ "$instructions" -gt 0 ] && [ "$instructions" -le "$((a + b * work_max))" ] &&
-        { [ "$is_aim" = 1 ] || [ "$instructions" -le "$most" ]; }
+        [ "$instructions" -le "$most" ]
 }
 
 declare -A worst promised time_for

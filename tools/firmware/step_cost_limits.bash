@@ -4,18 +4,17 @@
 # step (a), those of a unit of work (b), and the instructions that the processor has time for
 # (most): a quarter of the scan interval at 168 MHz; 4 million for `smallest`; `full` is taken with
 # 4 s a scan; `traffic` has half of its interval, which is less than a quarter of it at 480 MHz
-# (M7). Of `finders` a step is a second, of four looks: work_max does not bound the search for
-# tracks in bearings, its capacities do; a quarter of the second is an aim (is_aim), and not met.
+# (M7). Of `finders` a step is a second, of four looks with a search for tracks in bearings.
 shipped='full en_route marine traffic smallest finders'
 step_cost_limits_of() {
-    a=5000000 b=90 is_aim=0
+    a=5000000 b=90
     case $1 in
     full) most=168000000 ;;
     en_route) most=420000000 ;;
     marine) most=105000000 ;;
     traffic) a=2930000 most=4200000 ;;
     smallest) a=2200000 most=4000000 ;;
-    finders) a=300000000 b=0 most=42000000 is_aim=1 ;;
+    finders) a=15000000 b=150 most=42000000 ;;
     *) return 1 ;;
     esac
 }

@@ -3,7 +3,7 @@
  * worst_bearing_search: a genetic search for the bearings that cost most in a second, in the
  * configuration of a firmware node with direction finders (tools/firmware/nodes/finders.h): `worst
  * search SEED SKIES` searches, `worst sky GENES` measures a sky that was found before
- * (genetic_search.h). Its work is the pairs of crossings that were compared with all bearings.
+ * (genetic_search.h). Its work is that of the search for tracks.
  *
  * Four sensors look once a second each, at times of their own, and give up to RHO_MAX_BEARINGS
  * bearings a look. A sky is coded as genes: up to eight targets, their places and spacing, where
@@ -196,7 +196,7 @@ static void measure_sky(struct sky *sky)
         }
         if (instructions > sky->instructions) {
             sky->instructions = instructions;
-            sky->work = passive.work.hypotheses;
+            sky->work = passive.work.spent;
         }
     }
 }
