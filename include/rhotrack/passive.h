@@ -44,7 +44,7 @@ struct rho_passive_config {
     /* rate of false tracks that reach the score start_mnat: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
     /*
-     * limit of the work of a search, up to RHO_LIMIT_WORK units of some 100 instructions of a
+     * limit of the work of a search, up to RHO_LIMIT_WORK units of 100 to 200 instructions of a
      * Cortex-M4; 0: none. Beyond it middle rows are not crossed, or pairs not compared or fitted:
      * work.points_dropped and candidates_dropped tell
      */

@@ -170,7 +170,7 @@ struct rho_tracker_counters {
     /* starts refused, and tentative tracks ended for another one, as RHO_MAX_TRACKS were there */
     uint32_t tracks_no_room;
     uint32_t gate_plots_dropped; /* plots in a track's gate beyond RHO_MAX_GATE_PLOTS */
-    /* candidates of a search beyond RHO_MAX_CANDIDATES; of bearings, crossings beyond room and work */
+    /* candidates beyond RHO_MAX_CANDIDATES; of bearings, crossings beyond room and work */
     uint32_t candidates_dropped;
     uint32_t updates_refused;   /* numerically impossible updates: the track counts a miss */
     uint32_t hypotheses_cut;    /* hypotheses beyond RHO_MAX_HYPOTHESES */
@@ -187,8 +187,7 @@ struct rho_tracker_counters {
  * 10; two plots near each other 12. Where more plots are near a track than its share allows, those
  * far from its expected place are left out and counted. Counters saturate, and only
  * rho_tracker_init clears them. work is at most work_max + RHO_TRACKER_WORK_BEYOND, as work that
- * was begun is finished. The search of the passive initiator does not count: its cost follows from
- * the capacities alone.
+ * was begun is finished. The search in bearings counts its own, struct rho_passive_work.
  */
 #define RHO_TRACKER_WORK_BEYOND (RHO_INITIATOR_WORK_BEYOND + 64u * RHO_MAX_PLOTS)
 struct rho_tracker_work {

@@ -66,8 +66,8 @@ void rho_passive_mark_directions(struct rho_passive_search *search)
 }
 
 /*
- * The bearings of a look that may be within MATCH_SIGMAS of the direction; none where the range is 0
- * or far too large.
+ * The bearings of a look that may be within MATCH_SIGMAS of the direction; none where the range is
+ * 0 or far too large.
  */
 static rho_bearing_set bearings_near(const rho_bearing_set *bins, struct rho_passive_offset offset)
 {
@@ -107,8 +107,8 @@ struct nearest {
 };
 
 /*
- * The sine of the residual (cross range / range) stands for the angle: this needs neither arctangent
- * nor square root. A slope's residual is scaled to count as one of the bearing.
+ * The sine of the residual (cross range / range) stands for the angle: this needs neither
+ * arctangent nor square root. A slope's residual is scaled to count as one of the bearing.
  */
 static inline struct nearest find_nearest(const struct rho_passive_search *search, unsigned scan,
                                           unsigned sensor, struct rho_passive_offset offset,
@@ -150,9 +150,10 @@ struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_sear
     const struct rho_passive_offset offset =
         rho_passive_offset_from_sensor(search, scan, sensor, state_m);
     const int bearing = find_nearest(search, scan, sensor, offset, matching).bearing;
-    return bearing < 0
-               ? (struct rho_passive_match){.bearing = -1}
-               : match_with(search, search->passive->batch.bearings[scan][sensor], bearing, offset);
+    if (bearing < 0) {
+        return (struct rho_passive_match){.bearing = -1};
+    }
+    return match_with(search, search->passive->batch.bearings[scan][sensor], bearing, offset);
 }
 
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,

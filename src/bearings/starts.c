@@ -79,7 +79,7 @@ static void list_partners(struct rho_passive_search *search)
     for (uint32_t i = 0; i < passive->num_points; i++) {
         struct rho_passive_partner *best = passive->partners[i];
         memset(best, 0, sizeof passive->partners[i]);
-        /* each has a like share of the work, and the newest row's, which come first, before others */
+        /* each has a like share of the work; later ones of the newest row come first in the list */
         const uint32_t spent = passive->work.spent;
         const uint32_t left = search->work_end > spent ? search->work_end - spent : 0;
         const uint32_t end = rho_count(spent, left / (passive->num_points - i));

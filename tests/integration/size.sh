@@ -34,7 +34,7 @@ export BUILD=$copy/build
 
 bars() { SIZE_FLAGS=$1 tools/gates/library_size.sh --bars; }
 must_fail 'more crossings than fit' 'embedded, .* 49152  MISSED' bars -DRHO_MAX_PASSIVE_POINTS=2000
-must_fail 'more candidates than fit' 'workstation, .* 92160  MISSED' bars \
+must_fail 'more candidates than fit' 'workstation, .* 131072  MISSED' bars \
     -DRHO_MAX_PASSIVE_CANDIDATES=200
 must_fail 'a capacity beyond its range' RHO_MAX_PASSIVE_POINTS_must_be_16 bars \
     -DRHO_MAX_PASSIVE_POINTS=8

@@ -14,7 +14,7 @@ step_cost_limits_of() {
     marine) most=105000000 ;;
     traffic) a=2930000 most=4200000 ;;
     smallest) a=2200000 most=4000000 ;;
-    finders) a=15000000 b=150 most=42000000 ;;
+    finders) a=15000000 b=180 most=42000000 ;;
     *) return 1 ;;
     esac
 }

@@ -75,7 +75,7 @@ BARS = [
      "-DRHO_MAX_PASSIVE_SENSORS=2 -DRHO_MAX_PASSIVE_SCANS=8 -DRHO_MAX_BEARINGS=8"),
     ("passive", "embedded, 4 sensors, 8 scans, 16 bearings", 96 * 1024,
      "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=8 -DRHO_MAX_BEARINGS=16"),
-    ("passive", "workstation, 4 sensors, 16 scans, 16 bearings and tracks", 90 * 1024,
+    ("passive", "workstation, 4 sensors, 16 scans, 16 bearings and tracks", 128 * 1024,
      "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=16 -DRHO_MAX_BEARINGS=16 "
      "-DRHO_MAX_PASSIVE_TRACKS=16 -DRHO_MAX_PASSIVE_POINTS=1024 -DRHO_PASSIVE_BINS=256 "
      "-DRHO_PROFILE_WORKSTATION"),

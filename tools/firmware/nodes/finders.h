@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * finders: node configuration for four direction finders or cameras, each of one look a second with
- * at most 16 bearings, and eight targets. Its capacities and the limit on work are what a quarter of
- * a second has time for: sixteen places a row, of which the bearings of all sensors tell the likely.
+ * at most 16 bearings, and eight targets. Capacities and work are what a quarter of a second has
+ * time for: sixteen places a row, of which the bearings of all sensors tell the likely.
  */
 #define RHO_MAX_PASSIVE_SENSORS 4
 #define RHO_MAX_BEARINGS 16
-#define RHO_WORK_MAX 180000
+#define RHO_WORK_MAX 150000
 #define RHO_MAX_PASSIVE_POINTS 128
 #define RHO_MAX_PASSIVE_CANDIDATES 24
 #define RHO_SCAN_KINDS 4
