@@ -103,7 +103,7 @@
 #define RHO_MAX_OPEN_SCANS RHO_CONFIG_PICK(2, 16)
 #endif
 
-/* Default of work_max of rho_tracker_config and rho_initiator_config: units of work a step. */
+/* Default of work_max of the configs of tracker, initiator and passive search: units a step. */
 #ifndef RHO_WORK_MAX
 #define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 8000000)
 #endif
@@ -315,7 +315,7 @@
 #define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 2048)
 #endif
 
-/* Fitted candidates of passive tracks. RAM: 24 bytes each, 1 a sensor and row. 8 .. 255. */
+/* Candidates of passive tracks, of twice the fits. RAM: 24 bytes, 1 a sensor and row. 8 .. 255. */
 #ifndef RHO_MAX_PASSIVE_CANDIDATES
 #define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
 #endif

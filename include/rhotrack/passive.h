@@ -73,13 +73,13 @@ struct rho_passive_track {
 struct rho_passive_work {
     /* first pass: pairs of bearings crossed, and those that tell no place, or lack support */
     uint32_t crossings, ghosts;
-    /* pairs of bearings and crossings beyond work_max, and RHO_MAX_PASSIVE_POINTS: the unlikely */
+    /* crossings beyond RHO_MAX_PASSIVE_POINTS, the unlikely, and bearings beyond work_max */
     uint32_t points_dropped;
     uint32_t hypotheses; /* pairs of crossings whose agreement with the bearings was computed */
     uint32_t fits;       /* fits of a state to bearings */
-    /* beyond RHO_MAX_PASSIVE_CANDIDATES, or _TRACKS where chosen, and fits beyond work_max */
+    /* beyond RHO_MAX_PASSIVE_CANDIDATES, _TRACKS where chosen; partners, fits beyond work_max */
     uint32_t candidates_dropped;
-    uint32_t spent; /* places compared with a look, and bearings near them */
+    uint32_t spent; /* units of work */
 };
 
 /* Bearings of a look, a bit each. */
@@ -216,7 +216,8 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
  * Searches the batch for tracks, from bearings without an owner. Results: passive->tracks[0 ..
  * num_tracks - 1].
  * Errors: NULL, STATE (not initialised). Fewer than 3 rows, or one sensor: RHO_OK and no track.
- * Cost: work_max, and the choice among candidates. Stack: 3.5 KB (embedded profile).
+ * Cost: work_max, fits of known tracks, and the choice among candidates. Stack: 3.5 KB (embedded
+ * profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 

@@ -122,7 +122,7 @@ static inline struct nearest find_nearest(const struct rho_passive_search *searc
     rho_bearing_set left = bearings_near(passive->nearby[scan][sensor], offset);
     struct nearest nearest = {.bearing = -1, .share = 1.0f};
     const float reach_m2 = rho_square(MATCH_SIGMAS) * squared_range_m2(offset);
-    uint32_t compared = 0;
+    uint32_t compared = 1;
     for (int i = 0; left > 0; i++, left = (rho_bearing_set)(left >> 1)) {
         if (!(left & 1u)) {
             continue;

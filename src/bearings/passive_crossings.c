@@ -43,7 +43,7 @@ static int claim_bearing_towards(const struct rho_passive_search *search, unsign
     const float way_m = sigma_of_way_m(search, at->step - rho_passive_crossing_step(search, point));
     const float spread_m2 = across / range2 + way_m * way_m;
     float least = SUPPORT_SIGMAS * SUPPORT_SIGMAS, nearest_m2 = 0.0f;
-    rho_passive_spend(search, passive->batch.num_bearings[point->scan][sensor] / 4u);
+    rho_passive_spend(search, 1u + passive->batch.num_bearings[point->scan][sensor] / 4u);
     for (unsigned i = 0; i < passive->batch.num_bearings[point->scan][sensor]; i++) {
         const struct rho_batch_bearing *seen = &passive->batch.bearings[point->scan][sensor][i];
         float off_m = seen->cosine * dy_m - seen->sine * dx_m;
@@ -108,6 +108,7 @@ static void store_crossing(struct rho_passive_search *search, struct rho_passive
 {
     struct rho_passive *passive = search->passive;
     uint32_t least = search->row_begin;
+    rho_passive_spend(search, (passive->num_points - search->row_begin) / 16u);
     for (uint32_t i = search->row_begin; i < passive->num_points; i++) {
         struct rho_passive_point *other = &passive->points[i];
         if (memcmp(other->claim, point->claim, sizeof point->claim) == 0) {
@@ -200,9 +201,10 @@ static void cross_pair(struct rho_passive_search *search, const struct sensor_pa
     const unsigned most = !search->is_second; /* later unclaimed bearings alone are crossed */
     for (unsigned i = 0; i < num[pair->a]; i++) {
         if (!rho_passive_has_work(search)) {
-            work->points_dropped = rho_count(work->points_dropped, num[pair->b]);
+            work->points_dropped = rho_count(work->points_dropped, 1);
             continue;
         }
+        rho_passive_spend(search, num[pair->b]);
         for (unsigned j = 0; j < num[pair->b]; j++) {
             if (claimed_a[i] <= most && claimed_b[j] <= most) {
                 const unsigned is_ghost = !cross_bearings(search, pair, i, j);
@@ -213,17 +215,37 @@ static void cross_pair(struct rho_passive_search *search, const struct sensor_pa
     }
 }
 
+/* The most crossings that a row may have. */
+static uint32_t count_pairs(const struct rho_batch *batch, unsigned scan)
+{
+    uint32_t bearings = 0, pairs = 0;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        pairs += bearings * batch->num_bearings[scan][s];
+        bearings += batch->num_bearings[scan][s];
+    }
+    return pairs;
+}
+
 void rho_passive_find_crossings(struct rho_passive_search *search)
 {
     const struct rho_batch *batch = &search->passive->batch;
+    uint32_t left = 0;
+    for (unsigned scan = 0; scan < batch->num_scans; scan++) {
+        left += count_pairs(batch, scan);
+    }
     search->passive->num_points = 0;
     for (unsigned n = 0; n < batch->num_scans; n++) {
-        /* the newest row, the oldest, the next ones: what room and work lack is of the middle */
+        /* the newest row, the oldest, the next ones: what work lacks is of the middle */
         const unsigned scan = n % 2u == 0 ? batch->num_scans - 1u - n / 2u : n / 2u;
         const struct rho_passive_look *at = search->at[scan];
         search->row_begin = search->passive->num_points;
-        search->row_limit = search->row_begin + 2u * (RHO_MAX_PASSIVE_POINTS - search->row_begin) /
-                                                    (batch->num_scans - n + 1u);
+        /* an even share of the room, and what the rows that follow cannot need */
+        const uint32_t room = RHO_MAX_PASSIVE_POINTS - search->row_begin;
+        left -= count_pairs(batch, scan);
+        search->row_limit =
+            search->row_begin + (room > left && room - left > room / (batch->num_scans - n)
+                                     ? room - left
+                                     : room / (batch->num_scans - n));
         for (unsigned a = 0; a + 1u < batch->num_sensors; a++) {
             for (unsigned b = a + 1u; b < batch->num_sensors; b++) {
                 const struct sensor_pair pair = {.scan = scan, .a = a, .b = b};

@@ -91,7 +91,7 @@ static inline void add_match(const struct rho_passive_search *search, unsigned s
                              struct rho_passive_equations *equations)
 {
     const float step = search->at[scan][sensor].step;
-    rho_passive_spend(search, match->sigma_slope > 0.0f ? 2u : 0u);
+    rho_passive_spend(search, match->sigma_slope > 0.0f ? 3u : 1u);
     add_bearing_equation(step, match, equations);
     if (match->sigma_slope > 0.0f) {
         add_slope_equation(step, match, equations);

@@ -66,14 +66,13 @@ struct rho_passive_search {
 
 static inline int rho_passive_has_work(const struct rho_passive_search *search)
 {
-    return search->passive->work.spent < search->work_end;
+    return search->passive->config.work_max == 0 || search->passive->work.spent < search->work_end;
 }
 
-/* Counts the comparison of a place with bearings of a look, so many of them near it. */
-static inline void rho_passive_spend(const struct rho_passive_search *search, uint32_t near)
+static inline void rho_passive_spend(const struct rho_passive_search *search, uint32_t units)
 {
     struct rho_passive_work *work = &search->passive->work;
-    work->spent = rho_count(work->spent, 1u + near);
+    work->spent = rho_count(work->spent, units);
 }
 
 /* Elements of a state that the bearings of the search tell. */

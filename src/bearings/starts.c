@@ -76,13 +76,15 @@ static void list_partners(struct rho_passive_search *search)
     struct rho_passive *passive = search->passive;
     const unsigned apart =
         1u + (unsigned)(PAIR_ROWS_SHARE * (float)(passive->batch.num_scans - 2u));
+    const uint32_t pass_end = search->work_end;
     for (uint32_t i = 0; i < passive->num_points; i++) {
         struct rho_passive_partner *best = passive->partners[i];
         memset(best, 0, sizeof passive->partners[i]);
         /* each has a like share of the work; later ones of the newest row come first in the list */
         const uint32_t spent = passive->work.spent;
-        const uint32_t left = search->work_end > spent ? search->work_end - spent : 0;
-        const uint32_t end = rho_count(spent, left / (passive->num_points - i));
+        const uint32_t left = pass_end > spent ? pass_end - spent : 0;
+        search->work_end = rho_count(spent, left / (passive->num_points - i));
+        rho_passive_spend(search, passive->num_points / 8u);
         for (uint32_t j = 0; j < passive->num_points; j++) {
             float state_m[RHO_PASSIVE_STATES];
             if (passive->points[j].scan < passive->points[i].scan + apart ||
@@ -90,8 +92,8 @@ static void list_partners(struct rho_passive_search *search)
                                                state_m)) {
                 continue;
             }
-            if (passive->work.spent >= end) {
-                passive->work.points_dropped = rho_count(passive->work.points_dropped, 1);
+            if (!rho_passive_has_work(search)) {
+                passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
                 break;
             }
             unsigned place = RHO_PASSIVE_PARTNERS - 1u;
@@ -161,6 +163,7 @@ void rho_passive_fit_pairs(struct rho_passive_search *search)
     for (unsigned fits = 0; fits < FITS_MAX;) {
         struct rho_passive_partner *best = 0;
         uint32_t of = 0;
+        rho_passive_spend(search, passive->num_points / 8u);
         for (uint32_t i = 0; i < passive->num_points; i++) {
             for (unsigned n = 0; n < RHO_PASSIVE_PARTNERS; n++) {
                 struct rho_passive_partner *one = &passive->partners[i][n];

@@ -270,9 +270,12 @@ void rho_step_initiate_bearings(struct step *step, const struct rho_batch_owner 
     counters->candidates_dropped = rho_count(counters->candidates_dropped, dropped);
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];
+        /* margins miss the rivals among crossings left out, which two sensors cannot tell apart */
+        const int has_rivals =
+            passive->work.points_dropped > 0 && rho_passive_sensor_pairs(found) < 3u;
         /* without a bearing of the last two scans, a started track may claim the newer ones */
         const int is_recent = (unsigned)found->scans >> (passive->batch.num_scans - 2u) != 0;
-        if (is_recent && found->score_mnat >= passive->start_mnat &&
+        if (is_recent && !has_rivals && found->score_mnat >= passive->start_mnat &&
             found->margin_mnat >= MARGIN_MIN_MNAT) {
             start_found_track(step, &list, found);
         }

@@ -307,7 +307,7 @@ static void print_summary(const struct tracking *tracking,
                 work->partial_steps, work->plots_not_tried);
     }
     if (work->partial_steps == 0 && counters->candidates_dropped > 0) {
-        fprintf(stderr, ", candidates of tracks beyond the search's room: %" PRIu32,
+        fprintf(stderr, ", candidates of tracks beyond the search's room or work: %" PRIu32,
                 counters->candidates_dropped);
     }
     if (pipeline_show_num_not_sent(tracking->show) > 0) {

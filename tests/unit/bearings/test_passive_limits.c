@@ -286,19 +286,20 @@ static int is_target_found(const struct target *target)
     return is_found;
 }
 
-/* Three targets among as many false bearings as there is room for, of a searched scene. */
-static unsigned count_found_in_full_scans(uint32_t seed, uint32_t work_max)
+/* Three targets among false bearings, so many in all a look. */
+static unsigned count_found_among_false(uint32_t seed, double sigma_deg, unsigned bearings,
+                                        uint32_t work_max)
 {
     struct rho_passive_config config;
     rho_passive_config_default(&config);
     config.work_max = work_max;
     random_state = seed;
-    scene = scene_of(3, 3, 0.3, 1.0, 0.0);
+    scene = scene_of(3, 3, sigma_deg, 1.0, 0.0);
     draw_scene(&scene);
     for (unsigned k = 0; k < scene.scans; k++) {
         for (unsigned s = 0; s < scene.sensors; s++) {
-            while (scene.look[k][s].count < RHO_MAX_BEARINGS) {
-                add_bearing(&scene.look[k][s], uniform(-1.5, 1.5), 0.3 * DEG_RAD, -1);
+            while (scene.look[k][s].count < bearings) {
+                add_bearing(&scene.look[k][s], uniform(-1.5, 1.5), sigma_deg * DEG_RAD, -1);
             }
         }
     }
@@ -318,7 +319,7 @@ static void targets_are_found_where_crossings_have_no_room(void **state)
     (void)state;
     unsigned found = 0, dropped = 0;
     for (uint32_t seed = 1; seed <= 10; seed++) {
-        found += count_found_in_full_scans(seed, 0);
+        found += count_found_among_false(seed, 0.3, RHO_MAX_BEARINGS, 0);
         dropped += passive.work.points_dropped > 0;
     }
     print_message("without room: %u of 30 targets, %u searches\n", found, dropped);
@@ -330,15 +331,18 @@ static void targets_are_found_where_crossings_have_no_room(void **state)
 static void a_search_keeps_to_its_work(void **state)
 {
     (void)state;
-    (void)count_found_in_full_scans(1, 0);
-    const uint32_t all = passive.work.spent, fit = 4u * 8u * 3u * (RHO_MAX_BEARINGS + 1u);
-    for (uint32_t share = 2; share <= 64; share *= 4) {
-        (void)count_found_in_full_scans(1, all / share);
+    const uint32_t fit = 8u * 8u * 3u * (RHO_MAX_BEARINGS + 4u);
+    assert_int_equal(count_found_among_false(1, 0.3, 6, 0), 3);
+    const uint32_t all = passive.work.spent;
+    assert_int_equal(passive.work.points_dropped + passive.work.candidates_dropped, 0);
+    assert_int_equal(count_found_among_false(1, 0.3, 6, all / 2u), 3);
+    for (uint32_t share = 8; share <= 128; share *= 4) {
+        (void)count_found_among_false(1, 0.3, 6, all / share);
         print_message("work of 1/%u: %u of %u\n", share, passive.work.spent, all / share);
         assert_in_range(passive.work.spent, 1, all / share + fit);
         assert_true(passive.work.points_dropped + passive.work.candidates_dropped > 0);
     }
-    (void)count_found_in_full_scans(1, 1);
+    (void)count_found_among_false(1, 0.3, 6, 1);
     assert_int_equal(passive.num_tracks, 0);
 }
 

@@ -84,6 +84,7 @@ static void test_each_field_goes_to_its_configs(void **state)
     assert_memory_equal(&initiation.area, &settings.area, sizeof settings.area);
     assert_true(search.v_max_mps == 70.0f && search.pd == 0.7f && search.range_max_m == 20000.0f);
     assert_true(search.false_tracks_per_hour == 0.5f && search.scans == 8);
+    assert_true(search.work_max == 1234);
     rho_settings_apply_sensor(&settings, &sensor);
     assert_true(sensor.pd == 0.7f && sensor.range_min_m == 10.0f && sensor.range_max_m == 20000.0f);
     assert_true(sensor.sensor_id == 7 && sensor.x_m == 5.0f);

@@ -139,7 +139,7 @@ static void write_tracker_counters(FILE *out, const struct prometheus_metrics_so
          tracker->tracks_unseen},
         {"tracks_too_fast_total", "Of the ended: faster than v_max_mps.", tracker->tracks_too_fast},
         {"tracks_dropped_total", "Of the ended: by an operator.", tracker->tracks_dropped},
-        {"candidates_dropped_total", "Candidates of tracks, and crossings, without room.",
+        {"candidates_dropped_total", "Candidates of tracks, and crossings, beyond room or work.",
          tracker->candidates_dropped},
         {"sensors_suspected_total", "Times that a sensor became suspect.",
          tracker->sensors_suspected},

@@ -80,7 +80,7 @@
     X(BODY_MAX_M, "body_max_m", "m", 0, 0, 5000, 0, 1,                                             \
       "longest target, which may give several plots a scan; 0: targets are points")                \
     X(WORK_MAX, "work_max", "-", RHO_WORK_MAX, 0, 1e8, 1, 1,                                       \
-      "units of work, a scan (20 to 90 instructions each), tracks first; 0: no limit")             \
+      "units of work, a scan (20 to 200 instructions), tracks first; 0: no limit")                 \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
       "scans for which a track may coast, as its target may be hidden or out of sight")            \
     X(STANDING, "standing", "-", 0, 0, 1, 1, 1,                                                    \
