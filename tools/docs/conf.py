@@ -23,7 +23,7 @@ suppress_warnings = ["myst.header"]  # documents may begin below a first heading
 c_id_attributes = ["RHO_MUST_CHECK"]
 nitpicky = True
 nitpick_ignore_regex = [
-    ("c:identifier", r"u?int\d+_t|size_t"),
+    ("c:identifier", r"u?int\d+_t|size_t|rho_bearing_set"),
     ("py:class", r"np\..*|numpy\..*|os\.PathLike|Any|optional|Scans|Kalman|Settings"),
 ]
 autodoc_typehints = "signature"

@@ -540,6 +540,7 @@ static struct rho_passive_config random_config_maybe_invalid(void)
     config.pd = random_float(0.01, 0.999);
     config.field_of_view_rad = random_float(0.01, 6.28);
     config.false_tracks_per_hour = random_float(1e-6, 1e6);
+    config.work_max = (uint32_t)uniform(0.0, 1.1 * RHO_LIMIT_WORK);
     return config;
 }
 
