@@ -101,11 +101,10 @@ struct rho_passive_point {
     float x_m, y_m;
     float xx_m2, xy_m2, yy_m2;
     uint8_t scan;
-    uint8_t sensors;    /* those of its bearings: 8 a + b */
-    uint8_t bearing[2]; /* indices of its bearings in their looks */
-    /* of each sensor the bearing towards it, from 1, 0: none; with the ratio of the others' */
+    uint8_t sensors; /* those of its bearings: 8 a + b */
+    /* for each sensor the index of its bearing towards the crossing, from 1; 0: none */
     uint8_t claim[RHO_MAX_PASSIVE_SENSORS];
-    float evidence_nat;
+    float evidence_nat; /* log-likelihood ratio of the bearings of sensors other than a and b */
 };
 
 /* A crossing's partner: both together are a hypothesis of constant velocity. */

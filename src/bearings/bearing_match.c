@@ -22,11 +22,6 @@ static inline float floored_sigma_slope(const struct rho_passive_search *search,
     return rho_larger(bearing->sigma_slope, search->sigma_min_rad);
 }
 
-static inline float squared_range_m2(struct rho_passive_offset offset)
-{
-    return rho_square(offset.x_m) + rho_square(offset.y_m);
-}
-
 /* Bin of a direction, counted along the diamond |x| + |y| = 1, which needs no arctangent. */
 static unsigned direction_bin(float x, float y)
 {
@@ -71,7 +66,7 @@ void rho_passive_mark_directions(struct rho_passive_search *search)
  */
 static rho_bearing_set bearings_near(const rho_bearing_set *bins, struct rho_passive_offset offset)
 {
-    float size_m2 = squared_range_m2(offset);
+    float size_m2 = rho_passive_squared_range_m2(offset);
     return size_m2 > 1.0f && size_m2 < 1.0e24f ? bins[direction_bin(offset.x_m, offset.y_m)] : 0;
 }
 
@@ -79,7 +74,7 @@ static rho_bearing_set bearings_near(const rho_bearing_set *bins, struct rho_pas
 static inline float height_above_m(const struct rho_batch_bearing *bearing,
                                    struct rho_passive_offset offset)
 {
-    return bearing->slope * rho_sqrt(squared_range_m2(offset)) - offset.z_m;
+    return bearing->slope * rho_sqrt(rho_passive_squared_range_m2(offset)) - offset.z_m;
 }
 
 /* A state compared with a bearing of a look, index from 0. */
@@ -107,8 +102,9 @@ struct nearest {
 };
 
 /*
- * The sine of the residual (cross range / range) stands for the angle: this needs neither
- * arctangent nor square root. A slope's residual is scaled to count as one of the bearing.
+ * Of the bearings that may match. The sine of the residual (cross range / range) stands for the
+ * angle: this needs neither arctangent nor square root. A slope's residual is scaled to count as
+ * one of the bearing.
  */
 static inline struct nearest find_nearest(const struct rho_passive_search *search, unsigned scan,
                                           unsigned sensor, struct rho_passive_offset offset,
@@ -121,7 +117,7 @@ static inline struct nearest find_nearest(const struct rho_passive_search *searc
     const uint8_t *is_claimed = passive->is_claimed[scan][sensor];
     rho_bearing_set left = bearings_near(passive->nearby[scan][sensor], offset);
     struct nearest nearest = {.bearing = -1, .share = 1.0f};
-    const float reach_m2 = rho_square(MATCH_SIGMAS) * squared_range_m2(offset);
+    const float reach_m2 = rho_square(MATCH_SIGMAS) * rho_passive_squared_range_m2(offset);
     uint32_t compared = 1;
     for (int i = 0; left > 0; i++, left = (rho_bearing_set)(left >> 1)) {
         if (!(left & 1u)) {
@@ -162,7 +158,7 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
 {
     struct rho_passive_offset offset =
         rho_passive_offset_from_sensor(search, scan, sensor, state_m);
-    if (claim == 0 || !(squared_range_m2(offset) > 1.0f)) {
+    if (claim == 0 || !(rho_passive_squared_range_m2(offset) > 1.0f)) {
         return (struct rho_passive_match){.bearing = -1};
     }
     return match_with(search, search->passive->batch.bearings[scan][sensor], (int)claim - 1,

@@ -109,12 +109,11 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
  */
 static void find_candidates(struct rho_passive_search *search)
 {
-    const struct rho_passive_config *config = &search->passive->config;
+    const uint32_t work_max = search->passive->config.work_max;
     const uint32_t spent = search->passive->work.spent;
-    const uint32_t left = config->work_max > spent ? config->work_max - spent : 0;
-    const uint32_t share = config->work_max > 0 ? left / (search->is_second ? 3u : 6u) : UINT32_MAX;
-    search->work_share = share;
-    search->work_end = rho_count(spent, share);
+    const uint32_t left = work_max > spent ? work_max - spent : 0;
+    search->work_share = left / (search->is_second ? 3u : 6u);
+    rho_passive_allow(search, search->work_share);
     rho_passive_find_crossings(search);
     rho_passive_fit_pairs(search);
 }

@@ -69,18 +69,16 @@ static int is_at_place_of(const struct rho_passive_look *look, const struct rho_
 }
 
 /*
- * Claims the bearings towards a crossing. In the first pass, with three sensors or more: all but
- * one of those besides the pair that looked, and at least one, must have one, from places of their
- * own.
+ * Claims the bearings of other sensors towards a crossing. Returns whether they are enough: in the
+ * first pass, with three sensors or more, all but one of those besides the pair that looked, and at
+ * least one, must have one, from places of their own.
  */
-static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
+static int find_support(const struct rho_passive_search *search, const struct sensor_pair *pair,
                         struct rho_passive_point *point)
 {
     const struct rho_batch *batch = &search->passive->batch;
     const struct rho_passive_look *at = search->at[point->scan];
     unsigned others = 0, support = 0;
-    point->claim[pair->a] = (uint8_t)(point->bearing[0] + 1u);
-    point->claim[pair->b] = (uint8_t)(point->bearing[1] + 1u);
     for (unsigned s = 0; s < batch->num_sensors; s++) {
         if (batch->was_seen[point->scan][s] && s != pair->a && s != pair->b) {
             const unsigned is_apart =
@@ -146,11 +144,10 @@ static float sigma_with_way_rad(float sigma_rad, float way_m, float range_m)
 static int find_crossing(const struct rho_passive_search *search, const struct sensor_pair *pair,
                          struct rho_passive_point *point)
 {
-    const struct rho_passive_look *at = search->at[pair->scan];
-    const struct rho_passive_look *from = &at[pair->a], *to = &at[pair->b];
-    const struct rho_batch *batch = &search->passive->batch;
-    const struct rho_batch_bearing *a = &batch->bearings[pair->scan][pair->a][point->bearing[0]];
-    const struct rho_batch_bearing *b = &batch->bearings[pair->scan][pair->b][point->bearing[1]];
+    const struct rho_passive_look *from = &search->at[pair->scan][pair->a];
+    const struct rho_passive_look *to = &search->at[pair->scan][pair->b];
+    const struct rho_batch_bearing *a = rho_passive_bearing_of(search, point, pair->a);
+    const struct rho_batch_bearing *b = rho_passive_bearing_of(search, point, pair->b);
     const float most_m = search->passive->config.range_max_m;
     const float dx_m = to->x_m - from->x_m, dy_m = to->y_m - from->y_m;
     const float sine = a->cosine * b->sine - a->sine * b->cosine;
@@ -163,17 +160,18 @@ static int find_crossing(const struct rho_passive_search *search, const struct s
     }
     const float range_a_m = over_a_m / sine, range_b_m = over_b_m / sine;
     const float way_m = 0.5f * sigma_of_way_m(search, from->step - to->step);
-    /* a's error moves the place along b's ray, and b's error along a's ray */
-    const float along_b_m = range_a_m * sigma_with_way_rad(a->sigma_rad, way_m, range_a_m) / sine;
-    const float along_a_m = range_b_m * sigma_with_way_rad(b->sigma_rad, way_m, range_b_m) / sine;
-    const float ax_m = along_a_m * a->cosine, ay_m = along_a_m * a->sine;
-    const float bx_m = along_b_m * b->cosine, by_m = along_b_m * b->sine;
+    const struct rho_crossing_ray ray_a = {a->cosine, a->sine, range_a_m,
+                                           sigma_with_way_rad(a->sigma_rad, way_m, range_a_m)};
+    const struct rho_crossing_ray ray_b = {b->cosine, b->sine, range_b_m,
+                                           sigma_with_way_rad(b->sigma_rad, way_m, range_b_m)};
     const float tells_m = RANGE_SHARE * rho_larger(range_a_m, range_b_m);
+    float covariance_m2[3];
+    rho_crossing_covariance(&ray_a, &ray_b, covariance_m2);
     point->x_m = from->x_m + range_a_m * a->cosine;
     point->y_m = from->y_m + range_a_m * a->sine;
-    point->xx_m2 = ax_m * ax_m + bx_m * bx_m;
-    point->xy_m2 = ax_m * ay_m + bx_m * by_m;
-    point->yy_m2 = ay_m * ay_m + by_m * by_m;
+    point->xx_m2 = covariance_m2[0];
+    point->xy_m2 = covariance_m2[1];
+    point->yy_m2 = covariance_m2[2];
     return rho_passive_uncertainty_m2(point) < tells_m * tells_m;
 }
 
@@ -182,9 +180,10 @@ static int cross_bearings(struct rho_passive_search *search, const struct sensor
                           unsigned index_a, unsigned index_b)
 {
     struct rho_passive_point point = {.scan = (uint8_t)pair->scan,
-                                      .sensors = (uint8_t)(8u * pair->a + pair->b),
-                                      .bearing = {(uint8_t)index_a, (uint8_t)index_b}};
-    if (!find_crossing(search, pair, &point) || !is_supported(search, pair, &point)) {
+                                      .sensors = (uint8_t)(8u * pair->a + pair->b)};
+    point.claim[pair->a] = (uint8_t)(index_a + 1u);
+    point.claim[pair->b] = (uint8_t)(index_b + 1u);
+    if (!find_crossing(search, pair, &point) || !find_support(search, pair, &point)) {
         return 0;
     }
     store_crossing(search, &point);
@@ -242,10 +241,8 @@ void rho_passive_find_crossings(struct rho_passive_search *search)
         /* an even share of the room, and what the rows that follow cannot need */
         const uint32_t room = RHO_MAX_PASSIVE_POINTS - search->row_begin;
         left -= count_pairs(batch, scan);
-        search->row_limit =
-            search->row_begin + (room > left && room - left > room / (batch->num_scans - n)
-                                     ? room - left
-                                     : room / (batch->num_scans - n));
+        const uint32_t even = room / (batch->num_scans - n), spare = room > left ? room - left : 0;
+        search->row_limit = search->row_begin + (spare > even ? spare : even);
         for (unsigned a = 0; a + 1u < batch->num_sensors; a++) {
             for (unsigned b = a + 1u; b < batch->num_sensors; b++) {
                 const struct sensor_pair pair = {.scan = scan, .a = a, .b = b};

@@ -17,7 +17,7 @@ static inline void add_bearing_equation(float step, const struct rho_passive_mat
                                         struct rho_passive_equations *equations)
 {
     const float x_m = nearest->offset.x_m, y_m = nearest->offset.y_m;
-    const float range2_m2 = x_m * x_m + y_m * y_m;
+    const float range2_m2 = rho_passive_squared_range_m2(nearest->offset);
     const float weight =
         1.0f / (range2_m2 * (rho_square(nearest->sigma_rad) * range2_m2 + rho_square(EXACT_M)));
     const float residual = weight * nearest->cross_range_m * rho_sqrt(range2_m2);
@@ -45,7 +45,7 @@ static void add_slope_equation(float step, const struct rho_passive_match *neare
                                struct rho_passive_equations *equations)
 {
     const struct rho_passive_offset *offset = &nearest->offset;
-    const float range_m = rho_sqrt(rho_square(offset->x_m) + rho_square(offset->y_m));
+    const float range_m = rho_sqrt(rho_passive_squared_range_m2(*offset));
     const float slope = (nearest->above_m + offset->z_m) / range_m;
     const float row_x = -slope * offset->x_m / range_m, row_y = -slope * offset->y_m / range_m;
     const float row[N] = {row_x, row_y, step * row_x, step * row_y, 1.0f, step};
@@ -63,7 +63,7 @@ static void add_slope_equation(float step, const struct rho_passive_match *neare
 static inline float squared_residual(const struct rho_passive_match *match)
 {
     return rho_square(match->cross_range_m / match->sigma_rad) /
-           (rho_square(match->offset.x_m) + rho_square(match->offset.y_m));
+           rho_passive_squared_range_m2(match->offset);
 }
 
 /* With that of its slope. */
@@ -71,7 +71,7 @@ static inline float squared_residuals(const struct rho_passive_match *match)
 {
     const float slope = match->sigma_slope > 0.0f ? match->above_m / match->sigma_slope : 0.0f;
     return squared_residual(match) +
-           rho_square(slope) / (rho_square(match->offset.x_m) + rho_square(match->offset.y_m));
+           rho_square(slope) / rho_passive_squared_range_m2(match->offset);
 }
 
 /*

@@ -59,10 +59,16 @@ struct rho_passive_search {
     int has_slopes; /* 1: some bearings have an elevation, and states a height */
     /* second pass: claimed bearings are left out, and crossings need no third sensor */
     int is_second;
-    /* the work spent at which a phase ends, and what another phase may spend */
-    uint32_t work_end, work_share;
+    uint32_t work_end;             /* the work spent at which a phase ends */
+    uint32_t work_share;           /* units that each phase of a pass may spend */
     uint32_t row_begin, row_limit; /* of a row's crossings in passive->points, and of its room */
 };
+
+/* Lets what follows spend so many units. */
+static inline void rho_passive_allow(struct rho_passive_search *search, uint32_t units)
+{
+    search->work_end = rho_count(search->passive->work.spent, units);
+}
 
 static inline int rho_passive_has_work(const struct rho_passive_search *search)
 {
@@ -103,6 +109,14 @@ static inline float rho_passive_crossing_step(const struct rho_passive_search *s
     return 0.5f * (at[point->sensors / 8u].step + at[point->sensors % 8u].step);
 }
 
+/* The bearing that a crossing claims of a sensor. */
+static inline const struct rho_batch_bearing *
+rho_passive_bearing_of(const struct rho_passive_search *search,
+                       const struct rho_passive_point *point, unsigned sensor)
+{
+    return &search->passive->batch.bearings[point->scan][sensor][point->claim[sensor] - 1u];
+}
+
 /* Uncertainty of a crossing: the trace of its covariance. */
 static inline float rho_passive_uncertainty_m2(const struct rho_passive_point *point)
 {
@@ -132,6 +146,10 @@ rho_passive_offset_from_sensor(const struct rho_passive_search *search, unsigned
         .y_m = state_m[RHO_PASSIVE_Y] + look->step * state_m[RHO_PASSIVE_DY] - look->y_m,
         .z_m = state_m[RHO_PASSIVE_Z] + look->step * state_m[RHO_PASSIVE_DZ] - look->z_m};
 }
+static inline float rho_passive_squared_range_m2(struct rho_passive_offset offset)
+{
+    return rho_square(offset.x_m) + rho_square(offset.y_m);
+}
 /* A bearing of a look compared with the position of a state. */
 struct rho_passive_match {
     /* index among the bearings of the look, from 0; -1: no bearing within six sigmas */
@@ -160,8 +178,8 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    unsigned claim);
 /*
- * Marks, for each look, the directions within six sigmas of a bearing, for a quick test. Needed
- * before states are matched with nearest bearings.
+ * Lists, for each direction of each look, the bearings within six sigmas of it. Needed before
+ * states are matched with nearest bearings.
  */
 void rho_passive_mark_directions(struct rho_passive_search *search);
 /*

@@ -21,10 +21,8 @@ static void crossing_times(const struct rho_passive_search *search,
 {
     const unsigned k = point->scan, s[2] = {point->sensors / 8u, point->sensors % 8u};
     const float middle = rho_passive_crossing_step(search, point);
-    const struct rho_batch_bearing *a =
-        &search->passive->batch.bearings[k][s[0]][point->bearing[0]];
-    const struct rho_batch_bearing *b =
-        &search->passive->batch.bearings[k][s[1]][point->bearing[1]];
+    const struct rho_batch_bearing *a = rho_passive_bearing_of(search, point, s[0]);
+    const struct rho_batch_bearing *b = rho_passive_bearing_of(search, point, s[1]);
     const float apart = search->at[k][s[0]].step - middle;
     const float by =
         apart < 0.0f || apart > 0.0f ? apart / (a->cosine * b->sine - a->sine * b->cosine) : 0.0f;
@@ -76,14 +74,14 @@ static void list_partners(struct rho_passive_search *search)
     struct rho_passive *passive = search->passive;
     const unsigned apart =
         1u + (unsigned)(PAIR_ROWS_SHARE * (float)(passive->batch.num_scans - 2u));
-    const uint32_t pass_end = search->work_end;
+    const uint32_t phase_end = search->work_end;
     for (uint32_t i = 0; i < passive->num_points; i++) {
         struct rho_passive_partner *best = passive->partners[i];
         memset(best, 0, sizeof passive->partners[i]);
         /* each has a like share of the work; later ones of the newest row come first in the list */
         const uint32_t spent = passive->work.spent;
-        const uint32_t left = pass_end > spent ? pass_end - spent : 0;
-        search->work_end = rho_count(spent, left / (passive->num_points - i));
+        const uint32_t left = phase_end > spent ? phase_end - spent : 0;
+        rho_passive_allow(search, left / (passive->num_points - i));
         rho_passive_spend(search, passive->num_points / 8u);
         for (uint32_t j = 0; j < passive->num_points; j++) {
             float state_m[RHO_PASSIVE_STATES];
@@ -116,8 +114,8 @@ static int claims_crossing(const struct rho_passive_candidate *candidate,
                            const struct rho_passive_point *point)
 {
     const uint8_t *claim = candidate->claim[point->scan];
-    return claim[point->sensors / 8u] == point->bearing[0] + 1u &&
-           claim[point->sensors % 8u] == point->bearing[1] + 1u;
+    const unsigned a = point->sensors / 8u, b = point->sensors % 8u;
+    return claim[a] == point->claim[a] && claim[b] == point->claim[b];
 }
 
 /* Whether a candidate has the bearings of both crossings: a fit would find it again. */
@@ -136,8 +134,9 @@ static int is_found(const struct rho_passive *passive, const struct rho_passive_
 static void claim_crossing(struct rho_passive_candidate *candidate,
                            const struct rho_passive_point *point)
 {
-    candidate->claim[point->scan][point->sensors / 8u] = (uint8_t)(point->bearing[0] + 1u);
-    candidate->claim[point->scan][point->sensors % 8u] = (uint8_t)(point->bearing[1] + 1u);
+    const unsigned a = point->sensors / 8u, b = point->sensors % 8u;
+    candidate->claim[point->scan][a] = point->claim[a];
+    candidate->claim[point->scan][b] = point->claim[b];
 }
 
 /* Gives a state the height that the slopes of its crossings tell. Returns 0 where none has one. */
@@ -157,9 +156,9 @@ static int find_height(const struct rho_passive_search *search, const struct rho
 void rho_passive_fit_pairs(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    search->work_end = rho_count(passive->work.spent, search->work_share);
+    rho_passive_allow(search, search->work_share);
     list_partners(search);
-    search->work_end = rho_count(passive->work.spent, search->work_share);
+    rho_passive_allow(search, search->work_share);
     for (unsigned fits = 0; fits < FITS_MAX;) {
         struct rho_passive_partner *best = 0;
         uint32_t of = 0;

@@ -88,16 +88,15 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
     return RHO_CROSSING_MEETS;
 }
 
-void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_a_rad,
-                             float bearing_b_rad, float sigma_a_rad, float sigma_b_rad,
+void rho_crossing_covariance(const struct rho_crossing_ray *a, const struct rho_crossing_ray *b,
                              float covariance_m2[3])
 {
-    float sine = rho_sin(crossing->delta_rad);
+    const float sine = a->cosine * b->sine - a->sine * b->cosine;
     /* a's bearing error moves the place along b's ray, and b's error along a's ray */
-    float along_b_m = crossing->range_a_m * sigma_a_rad / sine;
-    float along_a_m = crossing->range_b_m * sigma_b_rad / sine;
-    float ax_m = along_a_m * rho_cos(bearing_a_rad), ay_m = along_a_m * rho_sin(bearing_a_rad);
-    float bx_m = along_b_m * rho_cos(bearing_b_rad), by_m = along_b_m * rho_sin(bearing_b_rad);
+    const float along_b_m = a->range_m * a->sigma_rad / sine;
+    const float along_a_m = b->range_m * b->sigma_rad / sine;
+    const float ax_m = along_a_m * a->cosine, ay_m = along_a_m * a->sine;
+    const float bx_m = along_b_m * b->cosine, by_m = along_b_m * b->sine;
     covariance_m2[0] = ax_m * ax_m + bx_m * bx_m;
     covariance_m2[1] = ax_m * ay_m + bx_m * by_m;
     covariance_m2[2] = ay_m * ay_m + by_m * by_m;

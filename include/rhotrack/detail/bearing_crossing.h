@@ -77,13 +77,17 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
 float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing_a_rad,
                              float bearing_b_rad);
 
+/* A bearing's direction from its sensor, the range of a crossing along it, and its sigma. */
+struct rho_crossing_ray {
+    float cosine, sine, range_m, sigma_rad;
+};
+
 /*
  * Covariance of a crossing, xx, xy, yy, for independent errors of the bearings: a bearing's error
  * moves the place along the other's ray, range / sin(delta) a radian.
- * Cost: two sines and cosines, three divisions. Stack: 64 bytes.
+ * Cost: two divisions. Stack: 64 bytes.
  */
-void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_a_rad,
-                             float bearing_b_rad, float sigma_a_rad, float sigma_b_rad,
+void rho_crossing_covariance(const struct rho_crossing_ray *a, const struct rho_crossing_ray *b,
                              float covariance_m2[3]);
 
 RHO_END_C

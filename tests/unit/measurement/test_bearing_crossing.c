@@ -200,7 +200,9 @@ static void the_covariance_agrees_with_noisy_bearings(void **state)
     const int runs = 40000;
     set_base(0, -10e3, 0, 10e3);
     assert_int_equal(rho_crossing_find(&base, a, b, 1e6f, &crossing), RHO_CROSSING_MEETS);
-    rho_crossing_covariance(&crossing, a, b, sigma_a, sigma_b, covariance);
+    const struct rho_crossing_ray ray_a = {cosf(a), sinf(a), crossing.range_a_m, sigma_a};
+    const struct rho_crossing_ray ray_b = {cosf(b), sinf(b), crossing.range_b_m, sigma_b};
+    rho_crossing_covariance(&ray_a, &ray_b, covariance);
     for (int run = 0; run < runs; run++) {
         struct rho_crossing noisy;
         float seen_a = a + (float)(sigma_a * normal()), seen_b = b + (float)(sigma_b * normal());
