@@ -65,22 +65,23 @@ struct rho_body_doubt {
      * sight, and of the plots' azimuths, which turn the line of sight
      */
     float unknown_m2ps2;
-    float doubled;      /* scans in which the body overlapped that of an older track; fades, too */
-    int64_t time_us;    /* time of the last look */
-    int64_t doubled_us; /* time of the last scan with such an overlap */
+    int64_t time_us; /* time of the last look */
 };
 
 /* Estimate of the extent of a track's body, within the tracker. */
 struct rho_body_filter {
     uint32_t track_id;
     float along_m2, across_m2; /* variances of a place on the body, along and across the heading */
-    float prior_m2;            /* prior of both variances */
+    float prior_m2;            /* prior of both variances, while no heading is known */
+    float aspect;              /* usual length over width, 1 or more */
     struct rho_body_side along, across;
     /* slope of the line of scatterers against the heading, and 1 / its variance */
     float slope, slope_weight;
     float cos_heading, sin_heading;
     float heading_sigma_rad;
     float plots;         /* plots that the extent was estimated from */
+    float plots_a_look;  /* mean number of plots in a look that has any, smoothed */
+    float two_nat;       /* ln evidence that its target is not that of an older track beside it */
     uint16_t most_plots; /* largest number of plots in one scan */
     uint8_t has_heading;
     struct rho_body_doubt doubt;

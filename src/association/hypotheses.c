@@ -254,6 +254,17 @@ enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, uint16_t slot, 
     return predict_slot(pool, slot, time_us, 1);
 }
 
+void rho_hypotheses_loosen(struct rho_hypotheses *pool, uint16_t slot, float velocity_m2ps2)
+{
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
+        for (int axis = RHO_VX; axis <= RHO_VY; axis++) {
+            imm->steady.covariance[RHO_AT(axis, axis)] += velocity_m2ps2;
+            imm->covariance[RHO_AT(axis, axis)] += velocity_m2ps2;
+        }
+    }
+}
+
 float rho_hypotheses_sum_of_shares(const struct rho_hypotheses *pool, uint16_t slot)
 {
     float sum = 0.0f;

@@ -21,7 +21,7 @@ void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_bodies_ungroup. */
 void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
                        const struct rho_scan *scan);
-/* A plot's range rate less that of a target at the plot's place with the track's velocity. */
+/* A plot's range rate less that of a target at the plot's place with a velocity. */
 struct range_rate_residual {
     float mps;
     float variance_m2ps2;  /* variance by the noise of the plot's range rate and of its azimuth */
@@ -30,7 +30,7 @@ struct range_rate_residual {
 };
 /* Returns 0 where no range rate was measured, or the plot is at the sensor. */
 int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
-                             const struct rho_track *track, const struct rho_plot *plot,
+                             const float velocity_mps[3], const struct rho_plot *plot,
                              struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
@@ -43,9 +43,42 @@ struct body_plot {
 int rho_bodies_locate_plot(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
                            unsigned plot, struct body_plot *at);
 
-/* Variances of a plot's own noise in the axes of a body: along, cross, across. */
-void rho_bodies_noise_axes(const struct rho_look *look, const struct rho_body_filter *body,
+/* Covariance of a plot's own noise in the axes of a heading: along, cross, across. */
+void rho_bodies_noise_axes(const struct rho_look *look, float cos_heading, float sin_heading,
                            const struct rho_plot *plot, float axes[3]);
+
+/* outline.c: where a look's plots of a body are expected */
+struct body_outline {
+    float place_m[2], velocity_mps[3]; /* of its centre, at the look's time */
+    float velocity_m2ps2[3];           /* covariance of the velocity: xx, yx, yy */
+    float cos_heading, sin_heading;
+    float along_m2, across_m2; /* variances of a place on the body */
+    float error_m2[3];         /* covariance of the predicted place: along, cross, across */
+    float plots;               /* mean number of plots a look */
+};
+/* The most that a target moves between a look's time and one of its plots, if this fast. */
+float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2]);
+struct body_outline rho_bodies_outline_track(const struct rho_tracker *tracker, unsigned row);
+/* One body in place of those of two tracks, in the axes of the first, no larger than any body. */
+struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, unsigned row,
+                                             unsigned other_row);
+/* A plot as an outline expects it. */
+struct outline_fit {
+    float along_m, across_m;         /* distance from the centre */
+    float apart_m;                   /* the same, in any direction */
+    float noise_m2[3];               /* of place and plot: along, cross, across with the width */
+    int has_rate;                    /* 1: a range rate was measured, and rate is set */
+    struct range_rate_residual rate; /* less that of the body's velocity */
+    float track_m2ps2;               /* variance of that velocity along the line of sight */
+};
+void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,
+                         const struct rho_plot *plot, struct outline_fit *fit);
+/* Variance of a fit's range rate, where a turn of the body spreads the rates of its places. */
+float rho_bodies_rate_variance(const struct outline_fit *fit, float turn_radps);
+/* Density of a plot's place and range rate by an outline, times its number of plots. */
+float rho_bodies_density(const struct rho_look *look, const struct body_outline *outline,
+                         const struct rho_plot *plot);
+
 /* The first plot, from this one of a group on, that no other track contends for; or RHO_NO_ROW. */
 static inline unsigned rho_bodies_next_own_plot(const struct rho_groups *groups, unsigned plot)
 {
@@ -73,10 +106,20 @@ static inline int rho_bodies_may_own(const struct rho_look *look, unsigned row)
     return RHO_BODIES && row < RHO_BODY_TRACKS &&
            look->tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row);
 }
-/* body_extents.c: prior variance of a place on a body, on each axis */
+/* body_extents.c: begins the body of a track anew, of unknown extent */
+void rho_bodies_begin(struct rho_tracker *tracker, unsigned row);
+/* Prior variance of a place on a body, on each axis. */
 float rho_bodies_prior_m2(const struct rho_tracker *tracker);
 
-/* duplicate_tracks.c: ends one of two tracks of one target; the other track gets its plots */
+/* Width of the widest body: short ones, as people, may be as wide as long. */
+float rho_bodies_widest_m(float longest_m);
+
+/* sudden_turns.c: a body that turns at once keeps its plots; its velocity becomes uncertain */
+void rho_bodies_follow_turns(struct step *step);
+/* Standard deviation of the velocity's change, on an axis, when a target turns at once. */
+float rho_bodies_turn_mps(const struct rho_tracker *tracker);
+
+/* duplicate_tracks.c: leaves one of two tracks of one target, with the plots of both */
 void rho_bodies_end_duplicates(struct step *step);
 
 #endif

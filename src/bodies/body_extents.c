@@ -8,10 +8,22 @@
 #include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
 
+void rho_bodies_begin(struct rho_tracker *tracker, unsigned row)
+{
+    const float longest_m = tracker->bodies.length_max_m;
+    rho_body_filter_init(&tracker->bodies.of[row], tracker->tracks[row].track_id,
+                         rho_bodies_prior_m2(tracker), longest_m / rho_bodies_widest_m(longest_m));
+}
+
 float rho_bodies_prior_m2(const struct rho_tracker *tracker)
 {
     const float length_m = rho_larger(PRIOR_SHARE * tracker->bodies.length_max_m, PRIOR_LEAST_M);
     return length_m * length_m / 12.0f;
+}
+
+float rho_bodies_widest_m(float longest_m)
+{
+    return rho_larger(WIDEST_SHARE * longest_m, rho_smaller(longest_m, ROUND_MOST_M));
 }
 
 enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float length_max_m)
@@ -40,19 +52,19 @@ void rho_bodies_align(struct rho_tracker *tracker)
         if (from < bodies->count) {
             bodies->of[row] = bodies->of[from++];
         } else {
-            rho_body_filter_init(&bodies->of[row], track->track_id, rho_bodies_prior_m2(tracker));
+            rho_bodies_begin(tracker, row);
         }
     }
     bodies->count = tracker->num_tracks;
 }
 
 int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
-                             const struct rho_track *track, const struct rho_plot *plot,
+                             const float velocity_mps[3], const struct rho_plot *plot,
                              struct range_rate_residual *rate)
 {
     float row[6], rate_mps;
-    const float *velocity = &track->kalman.state[RHO_VX];
-    const float state[6] = {plot->x_m, plot->y_m, plot->z_m, velocity[0], velocity[1], velocity[2]};
+    const float state[6] = {plot->x_m,       plot->y_m,       plot->z_m,
+                            velocity_mps[0], velocity_mps[1], velocity_mps[2]};
     if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
         !rho_measurement_predict_rate(state, look->sensor, (scan->measures & RHO_MEASURES_Z) != 0,
                                       row, &rate_mps)) {
@@ -80,17 +92,17 @@ int rho_bodies_locate_plot(const struct rho_look *look, const struct rho_scan *s
                              .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
     at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
-    return rho_bodies_rate_residual(look, scan, track, seen, &at->rate);
+    return rho_bodies_rate_residual(look, scan, &state[RHO_VX], seen, &at->rate);
 }
 
-void rho_bodies_noise_axes(const struct rho_look *look, const struct rho_body_filter *body,
+void rho_bodies_noise_axes(const struct rho_look *look, float cos_heading, float sin_heading,
                            const struct rho_plot *plot, float axes[3])
 {
     struct rho_measurement seen;
     float noise[6];
     rho_measurement_from_plot(plot, 0, look->sensor, &seen);
     rho_measurement_covariance(&seen, noise);
-    rho_body_rotate_covariance(body, noise, axes);
+    rho_body_rotate_covariance(cos_heading, sin_heading, noise, axes);
 }
 
 void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row)
@@ -117,12 +129,14 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
         }
         rho_bodies_set_heading(tracker, row);
         const struct rho_bodies *bodies = &tracker->bodies;
+        struct rho_body_filter *body = &tracker->bodies.of[row];
         for (unsigned i = bodies->groups.first[track->plot]; i != RHO_NO_ROW;
              i = bodies->groups.next[i]) {
             struct body_plot at;
             float axes[3];
             (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
-            rho_bodies_noise_axes(look, &bodies->of[row], &scan->plots[i], axes);
+            rho_bodies_noise_axes(look, body->cos_heading, body->sin_heading, &scan->plots[i],
+                                  axes);
             seen.num_plots++;
             seen.along_m2 += at.along_m * at.along_m;
             seen.across_m2 += at.across_m * at.across_m;
@@ -130,7 +144,8 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
             seen.noise_along_m2 += axes[0];
             seen.noise_across_m2 += axes[2];
         }
-        rho_body_add_plots(&tracker->bodies.of[row], &seen);
+        body->plots_a_look += PLOTS_SHARE * ((float)seen.num_plots - body->plots_a_look);
+        rho_body_add_plots(body, &seen);
     }
 }
 
@@ -165,23 +180,23 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
     for (unsigned i = 0; i < bodies->count; i++) {
         const struct rho_body_filter *body = &bodies->of[i];
         const struct rho_body_doubt *doubt = &body->doubt;
-        const float counts[] = {doubt->looks,  doubt->long_looks,       doubt->steady_looks,
-                                doubt->time_s, doubt->plots_beyond_one, doubt->doubled};
+        const float counts[] = {doubt->looks, doubt->long_looks, doubt->steady_looks, doubt->time_s,
+                                doubt->plots_beyond_one};
         const float squares[] = {
             doubt->far_m2,        doubt->side_m2,          doubt->cross_m2,
             doubt->rates_m2ps2,   doubt->far_m2ps,         doubt->side_m2ps,
             doubt->side_noise_m2, doubt->rate_noise_m2ps2, doubt->unknown_m2ps2};
         const float cosines[] = {body->cos_heading, body->sin_heading, doubt->cos_heading,
                                  doubt->sin_heading};
-        int is_sound = rho_is_within(body->along_m2, least_m2, 1e12f) &&
-                       rho_is_within(body->across_m2, least_m2, 1e12f) &&
-                       rho_is_within(body->prior_m2, least_m2, 1e12f) &&
-                       is_sound_side(&body->along) && is_sound_side(&body->across) &&
-                       rho_is_within(body->slope, -1e12f, 1e12f) &&
-                       rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
-                       rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
-                       rho_is_within(body->plots, 1.0f, 1e6f) &&
-                       rho_is_stored_time(doubt->time_us) && rho_is_stored_time(doubt->doubled_us);
+        int is_sound =
+            rho_is_within(body->along_m2, least_m2, 1e12f) &&
+            rho_is_within(body->across_m2, least_m2, 1e12f) &&
+            rho_is_within(body->prior_m2, least_m2, 1e12f) && is_sound_side(&body->along) &&
+            is_sound_side(&body->across) && rho_is_within(body->slope, -1e12f, 1e12f) &&
+            rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
+            rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
+            rho_is_within(body->plots, 1.0f, 1e6f) && rho_is_within(body->two_nat, -1e3f, 1e3f) &&
+            rho_is_stored_time(doubt->time_us);
         for (unsigned k = 0; k < sizeof counts / sizeof *counts; k++) {
             is_sound &= rho_is_within(counts[k], 0.0f, 1e9f);
         }

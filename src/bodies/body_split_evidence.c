@@ -32,6 +32,7 @@ static struct look_sums sum_look(const struct rho_look *look, const struct rho_s
     const struct rho_bodies *bodies = &look->tracker->bodies;
     struct look_sums sums = {.first_m = 1e9f, .last_m = -1e9f};
     const struct rho_groups *groups = &bodies->groups;
+    const struct rho_body_filter *body = &bodies->of[row];
     struct body_plot at;
     float axes[3];
     for (unsigned i =
@@ -42,7 +43,7 @@ static struct look_sums sum_look(const struct rho_look *look, const struct rho_s
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* a plot at the sensor has no line of sight */
         }
-        rho_bodies_noise_axes(look, &bodies->of[row], plot, axes);
+        rho_bodies_noise_axes(look, body->cos_heading, body->sin_heading, plot, axes);
         const float far_m = at.rate.sight_line[0] * at.dx_m + at.rate.sight_line[1] * at.dy_m,
                     side_m = at.rate.sight_line[0] * at.dy_m - at.rate.sight_line[1] * at.dx_m;
         sums.n += 1.0f;
@@ -90,9 +91,7 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
                                          .long_looks = doubt->long_looks,
                                          .cos_heading = body->cos_heading,
                                          .sin_heading = body->sin_heading,
-                                         .time_us = doubt->time_us,
-                                         .doubled = doubt->doubled,
-                                         .doubled_us = doubt->doubled_us};
+                                         .time_us = doubt->time_us};
     } else {
         doubt->steady_looks *= share;
         doubt->time_s = share * doubt->time_s + passed_s;

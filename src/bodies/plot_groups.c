@@ -48,49 +48,45 @@ static int may_be_one_target(const struct rho_look *look, struct rho_work *work,
     return off_mps * off_mps <= BODY_ERROR_SIGMAS * BODY_ERROR_SIGMAS * variance;
 }
 
-/* Body of a track, predicted to the scan's time. */
-struct predicted_body {
-    const struct rho_body_filter *body;
-    const struct rho_track *track;
-    float place_m2[3]; /* variances of place by body and prediction: along, cross, across */
-    float rate_sigma_mps;
-};
+/* The outline of a track's body for gates: its length and heading may yet be other ones. */
+static struct body_outline widened_outline(const struct rho_tracker *tracker, unsigned row)
+{
+    const struct rho_body_filter *body = &tracker->bodies.of[row];
+    struct body_outline outline = rho_bodies_outline_track(tracker, row);
+    /* the square of a half length is 3 times the variance of a place on the body */
+    const float turned =
+        body->has_heading ? 3.0f * body->heading_sigma_rad * body->heading_sigma_rad : 0.0f;
+    outline.along_m2 = rho_body_along_bound_m2(body) + turned * body->across_m2;
+    outline.across_m2 = body->across_m2 + turned * body->along_m2;
+    return outline;
+}
 
 /*
  * Returns 1 where a plot is in the gate of a body, and its range rate, if measured, agrees with the
  * track's velocity and a turn of the body. *misfit: -2 ln of the plot's likelihood.
  */
-static int body_explains_plot(const struct rho_look *look, const struct predicted_body *outline,
+static int body_explains_plot(const struct rho_look *look, const struct body_outline *outline,
                               const struct rho_plot *plot, float *misfit)
 {
-    float axes[3];
-    const float after_s = (float)plot->offset_us * 1e-6f, *state = outline->track->kalman.state;
-    const float c = outline->body->cos_heading, s = outline->body->sin_heading;
-    const float dx_m = plot->x_m - state[0] - after_s * state[3],
-                dy_m = plot->y_m - state[1] - after_s * state[4];
-    const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
-    rho_bodies_noise_axes(look, outline->body, plot, axes);
-    const float along_m2 = outline->place_m2[0] + axes[0],
-                across_m2 = outline->place_m2[2] + axes[2];
-    const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
+    struct outline_fit fit;
+    rho_bodies_fit_plot(look, outline, plot, &fit);
+    const float along_m2 = outline->along_m2 + fit.noise_m2[0], across_m2 = fit.noise_m2[2];
+    const float far = fit.along_m * fit.along_m / along_m2,
+                wide = fit.across_m * fit.across_m / across_m2;
     *misfit = far + wide + rho_log(along_m2) + rho_log(across_m2);
     if (!(far <= BODY_GATE_SIGMAS * BODY_GATE_SIGMAS &&
           wide <= BODY_GATE_SIGMAS * BODY_GATE_SIGMAS)) {
         return 0;
     }
-    struct range_rate_residual rate;
-    if (!rho_bodies_rate_residual(look, look->scan, outline->track, plot, &rate)) {
+    if (!fit.has_rate) {
         return 1;
     }
-    const float apart_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     const float slack_mps =
-        BODY_ERROR_SIGMAS * (outline->rate_sigma_mps + rho_sqrt(rate.variance_m2ps2)) +
-        TURN_RADPS * apart_m;
-    const float turn_mps = TURN_RADPS * apart_m;
-    const float variance = outline->rate_sigma_mps * outline->rate_sigma_mps + rate.variance_m2ps2 +
-                           turn_mps * turn_mps;
-    *misfit += rate.mps * rate.mps / variance + rho_log(variance);
-    return rate.mps <= slack_mps && rate.mps >= -slack_mps;
+        BODY_ERROR_SIGMAS * (rho_sqrt(fit.track_m2ps2) + rho_sqrt(fit.rate.variance_m2ps2)) +
+        TURN_RADPS * fit.apart_m;
+    const float variance = rho_bodies_rate_variance(&fit, TURN_RADPS);
+    *misfit += fit.rate.mps * fit.rate.mps / variance + rho_log(variance);
+    return fit.rate.mps <= slack_mps && fit.rate.mps >= -slack_mps;
 }
 
 /* Gives each plot to the track whose body explains it best. */
@@ -103,27 +99,18 @@ static void find_owners(struct step *step)
         if (!rho_bodies_may_own(look, row)) {
             continue;
         }
-        const struct rho_track *track = &step->tracker->tracks[row];
-        const struct rho_body_filter *body = &step->tracker->bodies.of[row];
-        const float *state = track->kalman.state, *p = track->kalman.covariance;
-        const float place_m2[3] = {p[RHO_AT(0, 0)], p[RHO_AT(0, 1)], p[RHO_AT(1, 1)]};
-        struct predicted_body outline = {
-            .body = body, .track = track, .rate_sigma_mps = rho_track_sigma_mps(track)};
-        rho_body_rotate_covariance(body, place_m2, outline.place_m2);
-        /* the square of a half length is 3 times the variance of a place on the body */
-        const float turned =
-            body->has_heading ? 3.0f * body->heading_sigma_rad * body->heading_sigma_rad : 0.0f;
-        outline.place_m2[0] += rho_body_along_bound_m2(body) + turned * body->across_m2;
-        outline.place_m2[2] += body->across_m2 + turned * body->along_m2;
+        const struct body_outline outline = widened_outline(step->tracker, row);
+        const float *place_m = outline.place_m, *velocity_mps = outline.velocity_mps;
         /* half side of a square that holds the gate in any direction, at any plot's time */
-        const float moved_m =
-            look->offset_max_s * rho_sqrt(state[3] * state[3] + state[4] * state[4]);
-        const float half_m =
-            1.5f * BODY_GATE_SIGMAS *
-                rho_sqrt(rho_larger(outline.place_m2[0], outline.place_m2[2]) + noise_m2) +
-            moved_m;
-        struct plots_near near = rho_plots_near(step->tracker, state[0] - half_m, state[0] + half_m,
-                                                state[1] - half_m, state[1] + half_m);
+        const float moved_m = rho_bodies_moved_m(look, velocity_mps);
+        const float half_m = 1.5f * BODY_GATE_SIGMAS *
+                                 rho_sqrt(rho_larger(outline.error_m2[0] + outline.along_m2,
+                                                     outline.error_m2[2] + outline.across_m2) +
+                                          noise_m2) +
+                             moved_m;
+        struct plots_near near =
+            rho_plots_near(step->tracker, place_m[0] - half_m, place_m[0] + half_m,
+                           place_m[1] - half_m, place_m[1] + half_m);
         for (uint32_t i; !rho_work_is_spent(&step->work) && rho_plots_next(look, &near, &i);) {
             const struct rho_plot *plot = &look->scan->plots[i];
             float misfit;
@@ -327,6 +314,7 @@ void rho_bodies_group(struct step *step)
     rho_plots_index(step->tracker, look);
     rho_work_begin_phase(step->tracker, &step->work, RHO_WORK_GROUPS_SHARE);
     find_owners(step);
+    rho_bodies_follow_turns(step);
     rho_bodies_end_duplicates(step);
     form_groups(step->tracker, look, &step->work);
     step->work.is_partial |= rho_work_is_spent(&step->work);

@@ -64,16 +64,65 @@
  */
 #define PLANE_SHARE 0.1f
 
+/* outline.c */
+
+/* Sigma of a heading below which the width of a body is across it, and not in any direction. */
+#define HEADING_KNOWN_RAD 0.2f
+/* Least variance of a place along a body, m^2: against a division by 0. */
+#define LINE_LEAST_M2 1e-6f
+/*
+ * Square of a misfit, and share of a density, beyond which a plot is far: strays are as likely by
+ * any body. Half: plots of two targets are strays. Twice: one stray decides.
+ */
+#define FAR_SQUARE 20.0f
+#define FAR_SHARE 1e-3f
+
+/* sudden_turns.c */
+
+/*
+ * Change of a velocity at once, sigma on an axis: the largest acceleration for this time. Half:
+ * people who turn lose their plots. Twice: cars take those of the next lane.
+ */
+#define TURN_S 0.35f
+/*
+ * ln of the prior odds against a turn in a look, and the most that one plot says: it takes three.
+ * Half: two strays turn a track. Twice: people of six plots who turn are lost.
+ */
+#define TURN_NAT 6.5f
+#define TURN_PLOT_NAT 3.0f
+/* Plots in a look that a body must have had. Half: two strays. Twice: people of few plots. */
+#define TURN_PLOTS 3u
+/* Share of the usual plots that must have turned. Half: strays about one who stands. Twice: none */
+#define TURN_SHARE 0.33f
+/* Gate of places, chi-square of two. Half: outer plots stay behind. Twice: neighbours' plots. */
+#define TURN_GATE_CHI2 11.8f
+
 /* duplicate_tracks.c */
 
-/* A track with fewer hits is new. Half: a long target keeps two. Twice: of two cars one is lost. */
-#define NEW_HITS 20u
 /*
- * Distance of two new tracks of one target along the heading and across it, in longest bodies.
- * Half: a long target keeps two tracks. Twice: neighbouring lanes and followers are one target.
+ * Evidence against two bodies for one in each look, and in each of its plots, ln: two fit better
+ * than one by chance. Half: halves of trucks stay two tracks. Twice: people side by side are one.
  */
-#define NEW_ALONG_SHARE 0.5f
-#define NEW_ACROSS_SHARE 0.15f
+#define TWO_LOOK_NAT 0.3f
+#define TWO_PLOT_NAT 0.3f
+/* Most that a look says, either way. Half: second tracks last. Twice: one look decides. */
+#define TWO_LOOK_MOST_NAT 4.0f
+/* Evidence at which a track ends. Half: new neighbours are lost. Twice: second tracks are shown. */
+#define ONE_BODY_NAT 3.0f
+/* Evidence by a look apart from all others, and its sum at most. Half: two who meet become one. */
+#define APART_NAT 1.0f
+#define TWO_MOST_NAT 30.0f
+/* Hits of a track that may replace one which was lost for as long. Twice: no more are found. */
+#define MISSED_MOST 20u
+
+/* body_extents.c: weight of a look in the mean number of plots. Half or twice: slower, noisier. */
+#define PLOTS_SHARE 0.07f
+/*
+ * Width of the widest body, as a share of the longest, or for bodies as short as this, m, their
+ * length: people are round. Half: lorries are split. Twice: cars abreast keep one track.
+ */
+#define WIDEST_SHARE 0.3f
+#define ROUND_MOST_M 2.5f
 
 /* plot_groups.c */
 
@@ -91,7 +140,7 @@
  * tracks are missed. Twice: bodies beside each other lack the plots between them.
  */
 #define CONTESTED_MISFIT 6.0f
-/* Units of work: a plot compared with a body; with another plot; a plot or track passed over. */
-enum { TEST_UNITS = 6, PAIR_UNITS = 2, PASS_UNITS = 1 };
+/* Units of work: a plot compared with a body; with three, for evidence; with another plot; passed. */
+enum { TEST_UNITS = 6, EVIDENCE_UNITS = 18, PAIR_UNITS = 2, PASS_UNITS = 1 };
 
 #endif

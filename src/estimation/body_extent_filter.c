@@ -13,19 +13,22 @@ static struct rho_body_side prior_side(float m2, float weight)
     return (struct rho_body_side){m2, weight, 2.0f * m2 * m2 / weight, 1.0f};
 }
 
-void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float prior_m2)
+void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float prior_m2,
+                          float aspect)
 {
     *body = (struct rho_body_filter){
         .track_id = track_id,
         .along_m2 = prior_m2,
         .across_m2 = prior_m2,
         .prior_m2 = prior_m2,
+        .aspect = aspect,
         .along = prior_side(prior_m2, PRIOR_WEIGHT),
         .across = prior_side(prior_m2, WIDTH_PRIOR_WEIGHT),
         .cos_heading = 1.0f,
         .heading_sigma_rad = RHO_PI,
         .slope_weight = SLOPE_WEIGHT,
         .plots = 1.0f,
+        .plots_a_look = 1.0f,
     };
 }
 
@@ -44,7 +47,7 @@ void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float ve
         return;
     }
     if (!body->has_heading) {
-        const float width_m2 = body->prior_m2 / (ASPECT_PRIOR * ASPECT_PRIOR);
+        const float width_m2 = body->prior_m2 / (body->aspect * body->aspect);
         body->across_m2 = width_m2;
         body->across = prior_side(width_m2, WIDTH_PRIOR_WEIGHT);
     }
@@ -54,10 +57,10 @@ void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float ve
     body->has_heading = 1;
 }
 
-void rho_body_rotate_covariance(const struct rho_body_filter *body, const float xx_yx_yy[3],
+void rho_body_rotate_covariance(float cos_heading, float sin_heading, const float xx_yx_yy[3],
                                 float axes[3])
 {
-    const float c = body->cos_heading, s = body->sin_heading;
+    const float c = cos_heading, s = sin_heading;
     const float xx = xx_yx_yy[0], yx = xx_yx_yy[1], yy = xx_yx_yy[2];
     axes[0] = c * c * xx + 2.0f * c * s * yx + s * s * yy;
     axes[1] = c * s * (yy - xx) + (c * c - s * s) * yx;
@@ -141,7 +144,7 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
      * An error of the heading turns all plots of a look: their apparent slope is the sum of the
      * scatterers' own (learned, as it lasts) and of this error, whose expected share is subtracted.
      */
-    const float usual_m2 = floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
+    const float usual_m2 = floored_along_m2(body) / (body->aspect * body->aspect);
     const float noise_m2 = look->noise_across_m2 / n;
     const float missed = rho_body_mean_variance_share(body, look->num_plots);
     const float sum_along_m2 = rho_larger(look->along_m2, n * PLACE_LEAST_M2);

@@ -124,21 +124,11 @@
  */
 #define FEW_PLOTS 4.0f
 /*
- * Ratio of length to width of a body of which only the heading is known. Half: new bodies are too
- * wide, and take a neighbour's plots. Twice: they lose their own plots at the sides.
- */
-#define ASPECT_PRIOR 3.0f
-/*
  * Weights of the priors of length, next to nothing, and of width, which is known to some 30 %. Half
  * or twice: the first looks change the length, and the width, more or less.
  */
 #define PRIOR_WEIGHT 0.3f
 #define WIDTH_PRIOR_WEIGHT 6.0f
-/*
- * Usual ratio of length to width, by which plots are weighted. Half: noise of plots counts for less
- * in the width. Twice: few plots count for the width at all.
- */
-#define ASPECT_USUAL 4.0f
 /*
  * Largest ratio of length to width. Half: long narrow bodies are reported too wide. Twice: a width
  * that noise made too small stays so.

@@ -88,8 +88,11 @@
 
 /* split_bodies.c */
 
-/* Widest body over the longest one. Half: lorries are split. Twice: cars abreast keep one track. */
-#define WIDEST_SHARE 0.3f
+/*
+ * ln evidence that the two tracks of a split are two targets. Half: cars abreast are one again
+ * before they are known. Twice: halves of a car stay two.
+ */
+#define SPLIT_NAT 6.0f
 /*
  * Plots of a body before its width counts: with fewer, its first heading may still be wrong. Half:
  * bodies seen from the side first are split. Twice: two targets have one track for longer.

@@ -48,7 +48,7 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
     }
     const float middle = 0.5f * (least + most);
     const float parted = why == RHO_BODY_TOO_LONG   ? PARTED_SHARE * longest_m
-                         : why == RHO_BODY_TOO_WIDE ? PARTED_SHARE * WIDEST_SHARE * longest_m
+                         : why == RHO_BODY_TOO_WIDE ? PARTED_SHARE * rho_bodies_widest_m(longest_m)
                                                     : PARTED_SIGMAS * rho_sqrt(rate_m2ps2);
     if (!(most - least > parted)) {
         return 0;
@@ -95,8 +95,9 @@ static enum rho_status start_from_side(const struct rho_look *look, const struct
 static void restart_body_filter(struct rho_tracker *tracker, unsigned row)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
-    rho_body_filter_init(body, tracker->tracks[row].track_id, rho_bodies_prior_m2(tracker));
+    rho_bodies_begin(tracker, row);
     rho_bodies_set_heading(tracker, row);
+    body->two_nat = SPLIT_NAT;
 }
 
 /* Splits a track into its own, at side 0, and a new one, at side 1. 0: there is no room for it. */
@@ -133,7 +134,7 @@ static int split_track(struct step *step, unsigned row, const struct body_side s
 void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
-    const float widest_m = WIDEST_SHARE * tracker->bodies.length_max_m;
+    const float widest_m = rho_bodies_widest_m(tracker->bodies.length_max_m);
     for (unsigned row = 0; step->look.teaches && row < tracker->bodies.count; row++) {
         const struct rho_body_filter *body = &tracker->bodies.of[row];
         const unsigned num_tracks = tracker->num_tracks;

@@ -379,6 +379,23 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     return RHO_OK;
 }
 
+static void loosen(float *covariance, float velocity_m2ps2)
+{
+    covariance[RHO_AT(RHO_VX, RHO_VX)] += velocity_m2ps2;
+    covariance[RHO_AT(RHO_VY, RHO_VY)] += velocity_m2ps2;
+}
+
+void rho_track_loosen(struct rho_track *track, const struct rho_track_model *model,
+                      float velocity_m2ps2)
+{
+    loosen(track->kalman.covariance, velocity_m2ps2);
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        loosen(track->input.bare.covariance, velocity_m2ps2);
+    } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        rho_hypotheses_loosen(model->hypotheses, track->slot, velocity_m2ps2);
+    }
+}
+
 void rho_track_free_hypotheses(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {

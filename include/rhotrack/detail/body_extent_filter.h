@@ -28,15 +28,19 @@
 
 RHO_BEGIN_C
 
-/* Starts a body whose extent is unknown; prior_m2: variance of a place on it, on each axis. */
-void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float prior_m2);
+/*
+ * Starts a body whose extent is unknown. prior_m2: variance of a place on it, on each axis; aspect:
+ * usual length over width of such bodies, 1 or more.
+ */
+void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float prior_m2,
+                          float aspect);
 
 /* Sets the heading by a velocity and its covariance xx, yx, yy, if over three of its sigmas. */
 void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float velocity_mps[2],
                                     const float covariance[3]);
 
-/* Rotates a covariance of x and y into the body's axes: along, cross term, across. */
-void rho_body_rotate_covariance(const struct rho_body_filter *body, const float xx_yx_yy[3],
+/* Rotates a covariance of x and y into the axes of a heading: along, cross term, across. */
+void rho_body_rotate_covariance(float cos_heading, float sin_heading, const float xx_yx_yy[3],
                                 float axes[3]);
 
 /* Upper bound of the variance along the body, for gates: the prior's share falls with plots. */

@@ -202,6 +202,9 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
                                                       int64_t time_us);
 
+/* Adds a variance to the velocity in x and y, in both models of all hypotheses of a slot. */
+void rho_hypotheses_loosen(struct rho_hypotheses *pool, uint16_t slot, float velocity_m2ps2);
+
 /*
  * Moves all hypotheses of a slot to time_us without process noise and without transitions between
  * models: on to the time from which they had been moved back.

@@ -181,6 +181,10 @@ RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
                 unsigned num_plots, const struct rho_track_model *model, int32_t score_mnat);
 
+/* Adds a variance to a track's velocity in x and y: its target may have turned. Constant cost. */
+void rho_track_loosen(struct rho_track *track, const struct rho_track_model *model,
+                      float velocity_m2ps2);
+
 /* Frees the track's hypotheses, before the track is removed. */
 void rho_track_free_hypotheses(struct rho_track *track, const struct rho_track_model *model);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Of two tracks on one target the younger ends. For the limits both tracks are made by hand, with
- * the private header.
+ * Of two tracks of one target one is left; two targets beside each other stay two. Tracks and their
+ * plots are made by hand, with the private header; people and a truck drive in scenes.
  */
 #include "../../src/bodies/bodies.h"
 #include "../../src/tracker/clutter.h"
@@ -13,8 +13,11 @@
 #if RHO_BODIES
 
 #define LONGEST_M 10.0f
+#define PLOTS_OF_TRACK 4u
 
 static struct step at;
+static struct rho_plot seen[2 * PLOTS_OF_TRACK];
+static struct rho_scan scan;
 
 /* A track that drives east at 10 m/s, with a body 4 m long and 2 m wide. */
 static void make_track_with_body(unsigned row, float x_m, float y_m, unsigned hits)
@@ -34,167 +37,188 @@ static void make_track_with_body(unsigned row, float x_m, float y_m, unsigned hi
                                                       .across_m2 = 4.0f / 12.0f,
                                                       .cos_heading = 1.0f,
                                                       .has_heading = 1,
+                                                      .plots_a_look = (float)PLOTS_OF_TRACK,
                                                       .plots = 100.0f};
 }
 
-/* Two tracks, and a plot owned by the older one for which the younger contends. */
+/* Two tracks, the second as far from the first. Both have given no evidence yet. */
 static void make_two_tracks(float x_m, float y_m, unsigned hits)
 {
-    struct rho_groups *groups = &tracker.bodies.groups;
     use_usual_configs(1);
     begin_tracker();
     assert_int_equal(rho_tracker_set_body_max(&tracker, LONGEST_M), RHO_OK);
     make_track_with_body(0, 100.0f, 0.0f, hits);
     make_track_with_body(1, 100.0f + x_m, y_m, hits);
     tracker.num_tracks = tracker.bodies.count = 2;
-    memset(groups, 0xff, sizeof *groups);
-    groups->owner[0] = 0;
-    groups->contender[0] = 1;
-    groups->owner[1] = 1;
-    at = (struct step){.tracker = &tracker,
-                       .report = &report,
-                       .look = {.tracker = &tracker,
-                                .fates = report.fates,
-                                .teaches = 1,
-                                .num_gated = 2,
-                                .in_view = {3}}};
     memset(&report, 0, sizeof report);
 }
 
-/* Scans until the younger track ends; 0: not within a hundred scans. */
-static unsigned scans_until_younger_ends(void)
+/* A look with plots on the bodies of some tracks; the other plots are of no track. */
+static void see_bodies(unsigned look, const float offsets_m[2], const float rates_mps[2])
 {
-    for (unsigned scan = 1; scan <= 100; scan++) {
-        at.look.time_us = 50000 * (int64_t)scan;
+    struct rho_groups *groups = &tracker.bodies.groups;
+    memset(groups, 0xff, sizeof *groups);
+    for (unsigned i = 0; i < 2u * PLOTS_OF_TRACK; i++) {
+        const unsigned row = i / PLOTS_OF_TRACK;
+        const float *state = tracker.tracks[row].kalman.state;
+        const float along_m = (float)uniform(-2.0, 2.0), across_m = (float)uniform(-1.0, 1.0);
+        seen[i] = (struct rho_plot){
+            .x_m = state[RHO_X] + along_m + offsets_m[row],
+            .y_m = state[RHO_Y] + across_m,
+            .range_rate_mps = rates_mps[row],
+            .sigma_range_rate_mps = 0.1f,
+            .sigma_range_m = 0.2f,
+            .sigma_cross_m = 0.2f,
+        };
+        groups->owner[i] = (uint16_t)row;
+        report.fates[i] = RHO_FATE_HELD;
+    }
+    scan = (struct rho_scan){.time_us = 50000 * (int64_t)look,
+                             .measures = RHO_MEASURES_RANGE_RATE,
+                             .num_plots = 2u * PLOTS_OF_TRACK,
+                             .plots = seen};
+    at = (struct step){.tracker = &tracker,
+                       .report = &report,
+                       .look = {.tracker = &tracker,
+                                .scan = &scan,
+                                .fates = report.fates,
+                                .time_us = scan.time_us,
+                                .teaches = 1,
+                                .num_inputs = scan.num_plots,
+                                .num_gated = scan.num_plots,
+                                .sigma_max_m = 0.2f,
+                                .in_view = {3}}};
+    rho_plots_index(&tracker, &at.look);
+    rho_work_begin_phase(&tracker, &at.work, 1);
+}
+
+/* Looks until a track ends, with the same plots for both; 0: none ends within a thousand. */
+static unsigned looks_until_one_ends(const float rates_mps[2])
+{
+    for (unsigned look = 1; look <= 1000; look++) {
+        see_bodies(look, (const float[2]){0.0f, 0.0f}, rates_mps);
         rho_bodies_end_duplicates(&at);
-        if (tracker.tracks[1].status == RHO_TRACK_FREE) {
-            assert_int_equal(tracker.tracks[0].status, RHO_TRACK_CONFIRMED);
-            /* the older track takes over the plots */
-            assert_int_equal(tracker.bodies.groups.owner[1], 0);
-            return scan;
+        for (unsigned row = 0; row < 2; row++) {
+            if (tracker.tracks[row].status == RHO_TRACK_FREE) {
+                return look;
+            }
         }
     }
     return 0;
 }
 
-static void the_younger_of_two_overlapping_tracks_ends(void **state)
+static const float alike_mps[2] = {10.0f, 10.0f};
+
+static void the_younger_of_two_tracks_of_one_car_ends(void **state)
 {
     (void)state;
-    make_two_tracks(0.0f, 0.0f, 1000);
-    assert_int_equal(scans_until_younger_ends(), 38);
-    make_two_tracks(0.0f, 0.0f, 1000);
-    /* the younger owns the plot, the older contends: the same result */
-    tracker.bodies.groups.owner[0] = 1;
-    tracker.bodies.groups.contender[0] = 0;
-    assert_int_equal(scans_until_younger_ends(), 38);
-    make_two_tracks(0.0f, 0.0f, 1000);
-    tracker.bodies.groups.contender[0] = RHO_NO_ROW; /* no plot has two contenders */
-    assert_int_equal(scans_until_younger_ends(), 0);
-    for (unsigned row = 0; row < 2; row++) { /* no heading is known */
-        make_two_tracks(0.0f, 0.0f, 1000);
-        tracker.bodies.of[row].has_heading = 0;
-        assert_int_equal(scans_until_younger_ends(), 0);
+    make_two_tracks(0.5f, 0.0f, 1000);
+    assert_in_range(looks_until_one_ends(alike_mps), 1, 5);
+    assert_int_equal(tracker.tracks[0].status, RHO_TRACK_CONFIRMED);
+    assert_int_equal(report.num_ended, 0); /* it was never confirmed */
+    for (unsigned i = 0; i < 2u * PLOTS_OF_TRACK; i++) {
+        assert_int_equal(tracker.bodies.groups.owner[i], 0); /* the older has all plots */
     }
-    make_two_tracks(0.0f, 0.0f, 1000);
-    at.look.teaches = 0;
-    assert_int_equal(scans_until_younger_ends(), 0);
-}
-
-/*
- * Both tracks contend for each other's plots, and the older one is near its own end: it still goes
- * on.
- */
-static void the_older_of_two_overlapping_tracks_stays(void **state)
-{
-    (void)state;
-    make_two_tracks(0.0f, 0.0f, 1000);
-    tracker.bodies.groups.contender[1] = 0;
-    tracker.bodies.of[0].doubt.doubled = 30.9f;
-    tracker.bodies.of[1].doubt.doubled = 30.9f;
-    assert_int_equal(scans_until_younger_ends(), 1);
-    assert_float_equal(tracker.bodies.of[0].doubt.doubled, 30.9 * (1.0 - 1.0 / 80.0), 1e-3);
-}
-
-/* Overlap in every second scan is enough, as 80 scans are remembered; in every fourth it is not. */
-static void overlap_must_last_for_enough_scans(void **state)
-{
-    (void)state;
-    for (unsigned every = 2; every <= 4; every += 2) {
-        make_two_tracks(0.0f, 0.0f, 1000);
-        for (unsigned scan = 1; scan <= 400; scan++) {
-            at.look.time_us = 50000 * (int64_t)scan;
-            tracker.bodies.groups.contender[0] = scan % every ? RHO_NO_ROW : 1;
-            rho_bodies_end_duplicates(&at);
-        }
-        assert_int_equal(tracker.tracks[1].status == RHO_TRACK_FREE, every == 2);
-    }
-}
-
-/* The middles may be half of the mean length and width apart: 2 m and 1 m. */
-static void a_duplicate_ends_only_if_bodies_overlap_by_half(void **state)
-{
-    (void)state;
-    const struct {
-        float x_m, y_m;
-        int ends;
-    } cases[] = {{1.95f, 0.0f, 1}, {2.05f, 0.0f, 0},  {-1.95f, 0.0f, 1}, {-2.05f, 0.0f, 0},
-                 {0.0f, 0.95f, 1}, {0.0f, -1.05f, 0}, {1.9f, 0.9f, 1},   {0.0f, 1.05f, 0}};
-    for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
-        make_two_tracks(cases[i].x_m, cases[i].y_m, 1000);
-        assert_int_equal(scans_until_younger_ends() > 0, cases[i].ends);
-    }
-}
-
-/*
- * Velocities of one target differ by four sigmas of both at most: 0.8 m/s if each sigma is 0.1 m/s.
- */
-static void tracks_of_different_velocity_stay(void **state)
-{
-    (void)state;
-    make_two_tracks(0.0f, 0.0f, 1000);
-    tracker.tracks[1].kalman.state[RHO_VX] = 10.75f;
-    assert_int_equal(scans_until_younger_ends(), 38);
-    make_two_tracks(0.0f, 0.0f, 1000);
-    tracker.tracks[1].kalman.state[RHO_VX] = 10.85f;
-    assert_int_equal(scans_until_younger_ends(), 0);
-}
-
-/* Half and 0.15 of the longest body, less a sigma of both places across. */
-static void of_two_new_tracks_within_half_a_body_one_ends(void **state)
-{
-    (void)state;
-    const struct {
-        float x_m, y_m;
-        unsigned hits;
-        int ends;
-    } cases[] = {{4.9f, 0.0f, 10, 1},  {5.1f, 0.0f, 10, 0}, {0.0f, 1.25f, 10, 1},
-                 {0.0f, 1.35f, 10, 0}, {4.9f, 0.0f, 19, 1}, {4.9f, 0.0f, 20, 0}};
-    for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
-        make_two_tracks(cases[i].x_m, cases[i].y_m, cases[i].hits);
-        assert_int_equal(scans_until_younger_ends() == 1, cases[i].ends);
-    }
-    make_two_tracks(4.0f, 0.0f, 10); /* the track with more hits goes on */
-    tracker.tracks[0].hits = 9;
-    rho_bodies_end_duplicates(&at);
+    make_two_tracks(0.5f, 0.0f, 100); /* older is the one with more hits */
+    tracker.tracks[0].hits = 99;
+    assert_in_range(looks_until_one_ends(alike_mps), 1, 5);
     assert_int_equal(tracker.tracks[0].status, RHO_TRACK_FREE);
-    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
-    for (int is_near = 0; is_near < 2; is_near++) { /* both head north-east */
-        const float along_m = is_near ? 4.9f : 5.1f, c = 0.70710678f;
-        make_two_tracks(c * along_m, c * along_m, 10);
-        for (int row = 0; row < 2; row++) {
-            tracker.tracks[row].kalman.state[RHO_VX] = tracker.tracks[row].kalman.state[RHO_VY] =
-                7.0f;
-            tracker.bodies.of[row].cos_heading = tracker.bodies.of[row].sin_heading = c;
+}
+
+static void cars_apart_stay_two(void **state)
+{
+    (void)state;
+    make_two_tracks(0.0f, 3.5f, 1000); /* in the next lane */
+    assert_int_equal(looks_until_one_ends(alike_mps), 0);
+    make_two_tracks(7.0f, 0.0f, 1000); /* in the same lane: together longer than any body */
+    assert_int_equal(looks_until_one_ends(alike_mps), 0);
+    make_two_tracks(0.0f, 2.0f, 1000); /* one passes the other: their range rates differ */
+    tracker.tracks[1].kalman.state[RHO_VX] = 13.0f;
+    assert_int_equal(looks_until_one_ends((const float[2]){10.0f, 13.0f}), 0);
+}
+
+/* Bumper to bumper two cars are no longer than a lorry: known as two they stay, else they do not. */
+static void what_is_known_to_be_two_stays_two(void **state)
+{
+    (void)state;
+    for (int is_known = 0; is_known < 2; is_known++) {
+        unsigned ended = 0;
+        make_two_tracks(5.5f, 0.0f, 1000);
+        tracker.bodies.of[1].two_nat = is_known ? 30.0f : 0.0f;
+        for (unsigned look = 1; look <= 1000 && !ended; look++) {
+            see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
+            scan.measures = 0; /* range rates would tell them: a lorry turns now and then */
+            rho_bodies_end_duplicates(&at);
+            ended = tracker.tracks[1].status == RHO_TRACK_FREE;
         }
-        assert_int_equal(scans_until_younger_ends() == 1, is_near);
+        assert_int_equal(ended, !is_known);
     }
-    /* a heading off by 0.1 rad shifts the other track's place across by 0.8 m */
-    make_two_tracks(4.0f, 1.4f, 10);
-    tracker.bodies.of[0].heading_sigma_rad = 0.1f;
-    assert_int_equal(scans_until_younger_ends(), 1);
-    make_two_tracks(4.0f, 1.4f, 10);
-    tracker.bodies.of[0].has_heading = 0;
-    assert_int_equal(scans_until_younger_ends(), 0);
+}
+
+/* Apart from all others a track becomes known in thirty looks, and no better known than that. */
+static void a_track_apart_becomes_known(void **state)
+{
+    (void)state;
+    make_two_tracks(100.0f, 0.0f, 1000);
+    for (unsigned look = 1; look <= 40; look++) {
+        see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
+        rho_bodies_end_duplicates(&at);
+        assert_float_equal(tracker.bodies.of[1].two_nat, look < 30 ? (float)look : 30.0f, 1e-3);
+    }
+}
+
+/* A scan that is out of sequence says nothing. */
+static void late_scans_end_no_track(void **state)
+{
+    (void)state;
+    make_two_tracks(0.5f, 0.0f, 1000);
+    for (unsigned look = 1; look <= 100; look++) {
+        see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
+        at.look.teaches = 0;
+        rho_bodies_end_duplicates(&at);
+    }
+    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
+    assert_float_equal(tracker.bodies.of[1].two_nat, 0.0f, 0.0f);
+}
+
+/* Makes an older track that misses, and a new one beside it whose velocity differs. */
+static void make_lost_and_new_track(unsigned missed, unsigned hits, float dvx_mps)
+{
+    make_two_tracks(-2.0f, 0.0f, 1000);
+    tracker.tracks[0].misses_in_row = (uint8_t)missed;
+    tracker.tracks[0].was_confirmed = 1;
+    tracker.tracks[1].hits = (uint16_t)hits;
+    tracker.tracks[1].kalman.state[RHO_VX] += dvx_mps;
+    for (unsigned look = 1; look <= 20 && tracker.tracks[1].status != RHO_TRACK_FREE; look++) {
+        const float rate_mps = 10.0f + dvx_mps;
+        see_bodies(look, (const float[2]){-100.0f, 0.0f}, (const float[2]){rate_mps, rate_mps});
+        for (unsigned i = 0; i < PLOTS_OF_TRACK; i++) {
+            tracker.bodies.groups.owner[i] = RHO_NO_ROW; /* of the older: none is seen */
+        }
+        rho_bodies_end_duplicates(&at);
+    }
+}
+
+/* Its target has turned: 0.35 s of the largest acceleration is a sigma, three of them the most. */
+static void a_lost_track_goes_on_with_the_estimate_of_a_new_one(void **state)
+{
+    (void)state;
+    use_usual_configs(1);
+    const float most_mps = 3.0f * 0.35f * config.accel_max_mps2;
+    make_lost_and_new_track(4, 4, -0.9f * most_mps);
+    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_FREE);
+    assert_int_equal(tracker.tracks[0].track_id, 1);
+    assert_int_equal(tracker.tracks[0].hits, 1000);
+    assert_int_equal(tracker.tracks[0].was_confirmed, 1);
+    assert_float_equal(tracker.tracks[0].kalman.state[RHO_X], 98.0f, 0.0f);
+    assert_float_equal(tracker.tracks[0].kalman.state[RHO_VX], 10.0f - 0.9f * most_mps, 1e-3);
+    assert_int_equal(report.num_ended, 0);           /* no number that was shown has ended */
+    make_lost_and_new_track(4, 4, -1.1f * most_mps); /* no turn explains it */
+    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
+    make_lost_and_new_track(4, 6, -0.9f * most_mps); /* both were seen at once */
+    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
+    make_lost_and_new_track(0, 1, -0.9f * most_mps);
+    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
 }
 
 /* ---- in a scene ------------------------------------------------------------------------------ */
@@ -220,16 +244,92 @@ static void a_suddenly_appearing_truck_has_one_track(void **state)
     }
 }
 
+/* ---- people before a radar of 10 Hz, 15 plots each ------------------------------------------- */
+
+struct person {
+    double x_m, y_m, vx_mps, vy_mps;
+};
+
+static void see_person(const struct person *person, unsigned count)
+{
+    const double range_m = hypot(person->x_m, person->y_m);
+    for (unsigned i = 0; i < count; i++) {
+        const double sigma_m = 0.13; /* of a place on the body, with noise */
+        const double dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
+        struct rho_plot *plot = add_plot(person->x_m + dx_m, person->y_m + dy_m, 0.05);
+        plot->range_rate_mps =
+            (float)((person->x_m * person->vx_mps + person->y_m * person->vy_mps) / range_m +
+                    0.3 * normal());
+        plot->sigma_range_rate_mps = 0.3f;
+    }
+}
+
+static void begin_room(uint64_t seed)
+{
+    use_usual_configs(seed);
+    config.v_max_mps = initiation.v_max_mps = 3.0f;
+    config.accel_max_mps2 = 3.0f;
+    begin_tracker();
+    assert_int_equal(rho_tracker_set_body_max(&tracker, 0.8f), RHO_OK);
+}
+
+static void step_room(int look)
+{
+    step_scan(
+        (struct rho_scan){.time_us = 100000 * (int64_t)look, .measures = RHO_MEASURES_RANGE_RATE});
+}
+
+static void two_people_side_by_side_are_two_tracks(void **state)
+{
+    (void)state;
+    unsigned right = 0;
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        begin_room(seed);
+        for (int k = 0; k < 100; k++) {
+            const struct person one = {4.0, -2.5 + 0.05 * k, 0.0, 0.5},
+                                other = {4.6, -2.5 + 0.05 * k, 0.0, 0.5};
+            see_person(&one, 15);
+            see_person(&other, 15);
+            step_room(k);
+            right += k >= 20 && report.num_tracks == 2;
+        }
+    }
+    assert_true(right > 360);
+}
+
+/* Nine turns back at once, as at a wall: one track, with one number. */
+static void a_person_who_turns_back_at_once_keeps_the_track(void **state)
+{
+    (void)state;
+    unsigned right = 0;
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        begin_room(seed);
+        struct person walker = {2.0, 0.5, 1.2, 0.3};
+        for (int k = 0; k < 200; k++) {
+            walker.vx_mps *= k % 20 == 19 ? -1.0 : 1.0;
+            walker.vy_mps *= k % 40 == 39 ? -1.0 : 1.0;
+            walker.x_m += 0.1 * walker.vx_mps;
+            walker.y_m += 0.1 * walker.vy_mps;
+            see_person(&walker, 15);
+            step_room(k);
+            right += report.num_tracks == 1 && tracker.tracks[0].track_id == 1;
+        }
+    }
+    assert_true(right > 960);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_younger_of_two_overlapping_tracks_ends),
-        cmocka_unit_test(the_older_of_two_overlapping_tracks_stays),
-        cmocka_unit_test(overlap_must_last_for_enough_scans),
-        cmocka_unit_test(a_duplicate_ends_only_if_bodies_overlap_by_half),
-        cmocka_unit_test(tracks_of_different_velocity_stay),
-        cmocka_unit_test(of_two_new_tracks_within_half_a_body_one_ends),
+        cmocka_unit_test(the_younger_of_two_tracks_of_one_car_ends),
+        cmocka_unit_test(cars_apart_stay_two),
+        cmocka_unit_test(what_is_known_to_be_two_stays_two),
+        cmocka_unit_test(a_track_apart_becomes_known),
+        cmocka_unit_test(late_scans_end_no_track),
+        cmocka_unit_test(a_lost_track_goes_on_with_the_estimate_of_a_new_one),
         cmocka_unit_test(a_suddenly_appearing_truck_has_one_track),
+        cmocka_unit_test(two_people_side_by_side_are_two_tracks),
+        cmocka_unit_test(a_person_who_turns_back_at_once_keeps_the_track),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

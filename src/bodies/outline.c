@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * outline: where a look's plots of a body are expected, at its time.
+ *
+ * A place on the body is uniform along its heading and normal across it, the error of the
+ * prediction and the plot's noise are normal. So with the offset u along and v across, and the
+ * covariance N of error and noise, in which the body's width stands, a plot has the density
+ *
+ *     n(v; N_vv) (F((u - m + h) / s) - F((u - m - h) / s)) / 2 h,   m = N_uv / N_vv v,
+ *
+ * for a body of length 2 h and s^2 = N_uu - N_uv^2 / N_vv; F: the normal distribution. A body's
+ * halves, each taken for a body, so explain its plots no better than the body does.
+ */
+#include "bodies.h"
+#include "policy.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/body_extent_filter.h"
+#include "rhotrack/detail/measurement.h"
+
+float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2])
+{
+    return look->offset_max_s *
+           rho_sqrt(velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1]);
+}
+
+struct body_outline rho_bodies_outline_track(const struct rho_tracker *tracker, unsigned row)
+{
+    const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
+    const struct rho_body_filter *body = &tracker->bodies.of[row];
+    const float *state = kalman->state, *p = kalman->covariance;
+    const float place_m2[3] = {p[RHO_AT(RHO_X, RHO_X)], p[RHO_AT(RHO_X, RHO_Y)],
+                               p[RHO_AT(RHO_Y, RHO_Y)]};
+    struct body_outline outline = {
+        .place_m = {state[RHO_X], state[RHO_Y]},
+        .velocity_mps = {state[RHO_VX], state[RHO_VY], state[RHO_VZ]},
+        .velocity_m2ps2 = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
+                           p[RHO_AT(RHO_VY, RHO_VY)]},
+        .cos_heading = body->cos_heading,
+        .sin_heading = body->sin_heading,
+        .along_m2 = body->along_m2,
+        .across_m2 = body->across_m2,
+        .plots = body->plots_a_look,
+    };
+    rho_body_rotate_covariance(body->cos_heading, body->sin_heading, place_m2, outline.error_m2);
+    return outline;
+}
+
+struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, unsigned row,
+                                             unsigned other_row)
+{
+    const struct rho_body_filter *body = &tracker->bodies.of[row];
+    const struct body_outline one = rho_bodies_outline_track(tracker, row),
+                              other = rho_bodies_outline_track(tracker, other_row);
+    const float longest_m = tracker->bodies.length_max_m;
+    const float widest_m = body->has_heading && body->heading_sigma_rad < HEADING_KNOWN_RAD
+                               ? rho_bodies_widest_m(longest_m)
+                               : longest_m;
+    const float left = other.plots / (one.plots + other.plots), share = 1.0f - left;
+    const float dx_m = other.place_m[0] - one.place_m[0], dy_m = other.place_m[1] - one.place_m[1];
+    const float along_m = one.cos_heading * dx_m + one.sin_heading * dy_m,
+                across_m = one.cos_heading * dy_m - one.sin_heading * dx_m;
+    struct body_outline joint = one;
+    float extent_m2[3], turned_m2[3];
+    rho_body_place_covariance(&tracker->bodies.of[other_row], extent_m2);
+    rho_body_rotate_covariance(one.cos_heading, one.sin_heading, extent_m2, turned_m2);
+    for (unsigned i = 0; i < 3; i++) {
+        joint.velocity_mps[i] += left * (other.velocity_mps[i] - one.velocity_mps[i]);
+        joint.velocity_m2ps2[i] = share * one.velocity_m2ps2[i] + left * other.velocity_m2ps2[i];
+    }
+    joint.place_m[0] += left * dx_m;
+    joint.place_m[1] += left * dy_m;
+    joint.along_m2 =
+        rho_smaller(share * one.along_m2 + left * (turned_m2[0] + share * along_m * along_m),
+                    longest_m * longest_m / 12.0f);
+    joint.across_m2 =
+        rho_smaller(share * one.across_m2 + left * (turned_m2[2] + share * across_m * across_m),
+                    widest_m * widest_m / 12.0f);
+    joint.plots += other.plots;
+    return joint;
+}
+
+void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,
+                         const struct rho_plot *plot, struct outline_fit *fit)
+{
+    const float after_s = (float)plot->offset_us * 1e-6f;
+    const float c = outline->cos_heading, s = outline->sin_heading;
+    const float dx_m = plot->x_m - outline->place_m[0] - after_s * outline->velocity_mps[0],
+                dy_m = plot->y_m - outline->place_m[1] - after_s * outline->velocity_mps[1];
+    fit->along_m = c * dx_m + s * dy_m;
+    fit->across_m = c * dy_m - s * dx_m;
+    rho_bodies_noise_axes(look, c, s, plot, fit->noise_m2);
+    for (unsigned i = 0; i < 3; i++) {
+        fit->noise_m2[i] += outline->error_m2[i];
+    }
+    fit->noise_m2[2] += outline->across_m2;
+    fit->has_rate =
+        rho_bodies_rate_residual(look, look->scan, outline->velocity_mps, plot, &fit->rate);
+    fit->apart_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    const float *line = fit->rate.sight_line;
+    fit->track_m2ps2 = fit->has_rate ? line[0] * line[0] * outline->velocity_m2ps2[0] +
+                                           2.0f * line[0] * line[1] * outline->velocity_m2ps2[1] +
+                                           line[1] * line[1] * outline->velocity_m2ps2[2]
+                                     : 0.0f;
+}
+
+float rho_bodies_rate_variance(const struct outline_fit *fit, float turn_radps)
+{
+    const float turn_mps = turn_radps * fit->apart_m;
+    return fit->track_m2ps2 + fit->rate.variance_m2ps2 + turn_mps * turn_mps;
+}
+
+/* The normal distribution, within 0.01. */
+static float normal_below(float sigmas)
+{
+    return 1.0f / (1.0f + rho_exp(-1.702f * sigmas));
+}
+
+float rho_bodies_density(const struct rho_look *look, const struct body_outline *outline,
+                         const struct rho_plot *plot)
+{
+    struct outline_fit fit;
+    rho_bodies_fit_plot(look, outline, plot, &fit);
+    const float slope = fit.noise_m2[1] / fit.noise_m2[2];
+    const float half_m = rho_sqrt(3.0f * outline->along_m2);
+    const float along_m = fit.along_m - slope * fit.across_m;
+    const float per_sigma =
+        1.0f / rho_sqrt(rho_larger(fit.noise_m2[0] - slope * fit.noise_m2[1], LINE_LEAST_M2));
+    const float along = (normal_below((along_m + half_m) * per_sigma) -
+                         normal_below((along_m - half_m) * per_sigma)) /
+                        half_m;
+    float square = fit.across_m * fit.across_m / fit.noise_m2[2], size = fit.noise_m2[2];
+    if (fit.has_rate) {
+        const float variance = rho_bodies_rate_variance(&fit, TURN_USUAL_RADPS);
+        square += fit.rate.mps * fit.rate.mps / variance;
+        size *= variance;
+    }
+    return outline->plots * (along + FAR_SHARE / half_m) *
+           rho_exp(-0.5f * rho_smaller(square, FAR_SQUARE)) / rho_sqrt(size);
+}
