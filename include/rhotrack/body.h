@@ -18,10 +18,13 @@
  * Targets Using Random Matrices, IEEE Transactions on Signal Processing 59 (2011), 1409-1420.
  *
  * Two targets that are near each other from their first plots on are taken for one body, until it
- * is surely wider than 0.3 of the longest body, or longer than the longest body, or its range rates
- * show parts that move apart (src/step/split_bodies.c, src/bodies/body_split_evidence.c). Of two
- * tracks whose bodies overlap for long the younger ends. Plots of one body in two sectors of a turn
- * are two groups.
+ * is surely wider than the widest body (0.3 of the longest, but 2.5 m at least, and no more than
+ * the length), or longer than the longest body, or its range rates show parts that move apart
+ * (src/step/split_bodies.c, src/bodies/body_split_evidence.c). Whether two tracks are of one target
+ * or of two is told by likelihoods: of the look's plots by two bodies, over those by one
+ * (src/bodies/duplicate_tracks.c). A body that turns at once keeps its plots where all their range
+ * rates say so (src/bodies/sudden_turns.c). Plots of one body in two sectors of a turn are two
+ * groups.
  *
  * Stack: 128 bytes at most.
  */
@@ -73,7 +76,7 @@ struct rho_body_filter {
     uint32_t track_id;
     float along_m2, across_m2; /* variances of a place on the body, along and across the heading */
     float prior_m2;            /* prior of both variances, while no heading is known */
-    float aspect;              /* usual length over width, 1 or more */
+    float aspect;              /* prior length over prior width, 1 or more */
     struct rho_body_side along, across;
     /* slope of the line of scatterers against the heading, and 1 / its variance */
     float slope, slope_weight;

@@ -59,9 +59,10 @@ struct body_outline {
 /* The most that a target moves between a look's time and one of its plots, if this fast. */
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2]);
 struct body_outline rho_bodies_outline_track(const struct rho_tracker *tracker, unsigned row);
-/* One body in place of those of two tracks, in the axes of the first, no larger than any body. */
+/* One body in place of two tracks' outlines, in the axes of the first, as the longest at most. */
 struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, unsigned row,
-                                             unsigned other_row);
+                                             unsigned other_row, const struct body_outline *of,
+                                             const struct body_outline *of_other);
 /* A plot as an outline expects it. */
 struct outline_fit {
     float along_m, across_m;         /* distance from the centre */

@@ -188,15 +188,18 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
             doubt->side_noise_m2, doubt->rate_noise_m2ps2, doubt->unknown_m2ps2};
         const float cosines[] = {body->cos_heading, body->sin_heading, doubt->cos_heading,
                                  doubt->sin_heading};
-        int is_sound =
-            rho_is_within(body->along_m2, least_m2, 1e12f) &&
-            rho_is_within(body->across_m2, least_m2, 1e12f) &&
-            rho_is_within(body->prior_m2, least_m2, 1e12f) && is_sound_side(&body->along) &&
-            is_sound_side(&body->across) && rho_is_within(body->slope, -1e12f, 1e12f) &&
-            rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
-            rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
-            rho_is_within(body->plots, 1.0f, 1e6f) && rho_is_within(body->two_nat, -1e3f, 1e3f) &&
-            rho_is_stored_time(doubt->time_us);
+        int is_sound = rho_is_within(body->along_m2, least_m2, 1e12f) &&
+                       rho_is_within(body->across_m2, least_m2, 1e12f) &&
+                       rho_is_within(body->prior_m2, least_m2, 1e12f) &&
+                       is_sound_side(&body->along) && rho_is_within(body->aspect, 1.0f, 1e6f) &&
+                       rho_is_within(body->plots_a_look, 0.5f, 1e6f) &&
+                       rho_is_within(body->two_nat, -1e3f, 1e3f) && is_sound_side(&body->across) &&
+                       rho_is_within(body->slope, -1e12f, 1e12f) &&
+                       rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
+                       rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
+                       rho_is_within(body->plots, 1.0f, 1e6f) &&
+                       rho_is_within(body->two_nat, -1e3f, 1e3f) &&
+                       rho_is_stored_time(doubt->time_us);
         for (unsigned k = 0; k < sizeof counts / sizeof *counts; k++) {
             is_sound &= rho_is_within(counts[k], 0.0f, 1e9f);
         }

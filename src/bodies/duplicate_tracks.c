@@ -8,17 +8,28 @@
  * gain some in each look, so that two targets that come from afar stay two when they meet.
  *
  * Where an older track does not see its target any more since a younger one began, the younger
- * alone may explain the plots, too: the target has turned. The track that sees it is left, with the
- * number of the older.
+ * alone may explain the plots, too: the target has turned. The older goes on with its estimate.
  */
 #include "bodies.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 
+/* True where a track goes on if it is of the other's target: one that was confirmed, the first. */
 static int is_older(const struct rho_tracker *tracker, unsigned row, unsigned other)
 {
-    const unsigned hits = tracker->tracks[row].hits, others = tracker->tracks[other].hits;
-    return hits > others || (hits == others && row < other);
+    const int is_known = tracker->tracks[row].was_confirmed,
+              is_other_known = tracker->tracks[other].was_confirmed;
+    return is_known != is_other_known ? is_known : row < other;
+}
+
+/* True where two tracks may have one velocity; targets that pass each other have not. */
+static int move_alike(const struct rho_track *one, const struct rho_track *other)
+{
+    const float vx_mps = one->kalman.state[RHO_VX] - other->kalman.state[RHO_VX],
+                vy_mps = one->kalman.state[RHO_VY] - other->kalman.state[RHO_VY];
+    const float most_mps =
+        BODY_ERROR_SIGMAS * (rho_track_sigma_mps(one) + rho_track_sigma_mps(other));
+    return vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
 }
 
 /* The most, on an axis, by which a turn changes the velocity of a target. */
@@ -49,9 +60,10 @@ static float distance_m(const struct rho_look *look, unsigned older, unsigned yo
     const float dx_m = to->kalman.state[RHO_X] - from->kalman.state[RHO_X],
                 dy_m = to->kalman.state[RHO_Y] - from->kalman.state[RHO_Y];
     const float apart_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    const float turned_m =
+        turn_most_mps(tracker) * rho_seconds_between(from->updated_us, look->time_us);
     return may_replace(tracker, older, younger)
-               ? apart_m -
-                     turn_most_mps(tracker) * rho_seconds_between(from->updated_us, look->time_us)
+               ? apart_m - rho_smaller(turned_m, tracker->bodies.length_max_m)
                : apart_m;
 }
 
@@ -59,62 +71,83 @@ static float distance_m(const struct rho_look *look, unsigned older, unsigned yo
 static void compare_older(const struct rho_look *look, unsigned row, unsigned older,
                           unsigned *nearest, float *least_m)
 {
-    if (older != row && older != *nearest && is_older(look->tracker, older, row) &&
-        rho_bodies_may_own(look, older)) {
-        const float apart_m = distance_m(look, older, row);
-        if (apart_m < *least_m) {
-            *least_m = apart_m;
-            *nearest = older;
-        }
+    const struct rho_tracker *tracker = look->tracker;
+    if (older == RHO_NO_ROW || older == row || older == *nearest ||
+        !is_older(tracker, older, row) || !rho_bodies_may_own(look, older)) {
+        return;
+    }
+    const float apart_m = distance_m(look, older, row);
+    if (apart_m < *least_m && (move_alike(&tracker->tracks[older], &tracker->tracks[row]) ||
+                               may_replace(tracker, older, row))) {
+        *least_m = apart_m;
+        *nearest = older;
     }
 }
 
 /*
  * Row of the nearest older track whose body may be that of a track; or RHO_NO_ROW. It is found by
- * its plots; one without plots is compared with new tracks alone.
+ * its plots and by those that its body explains, too; one that missed is compared with new tracks
+ * alone. *is_seen: the track has a plot in this look.
  */
-static unsigned nearest_older(struct step *step, unsigned row)
+static unsigned nearest_older(struct step *step, unsigned row, int *is_seen)
 {
     const struct rho_look *look = &step->look;
     const struct rho_tracker *tracker = step->tracker;
+    const struct rho_groups *groups = &tracker->bodies.groups;
     const struct rho_track *track = &tracker->tracks[row];
-    const float longest_m = tracker->bodies.length_max_m;
     const float *state = track->kalman.state;
-    float least_m = longest_m;
-    unsigned nearest = RHO_NO_ROW;
-    const float half_m = 1.5f * longest_m + LOOSE_SIGMAS * look->sigma_max_m +
-                         rho_bodies_moved_m(look, &state[RHO_VX]);
+    float least_m = tracker->bodies.length_max_m;
+    unsigned nearest = RHO_NO_ROW, last = RHO_NO_ROW;
+    const float half_m =
+        least_m + LOOSE_SIGMAS * look->sigma_max_m + rho_bodies_moved_m(look, &state[RHO_VX]);
     struct plots_near near = rho_plots_near(tracker, state[RHO_X] - half_m, state[RHO_X] + half_m,
                                             state[RHO_Y] - half_m, state[RHO_Y] + half_m);
+    *is_seen = 0;
+    rho_work_spend(&step->work, PAIR_UNITS);
     for (uint32_t i; !rho_work_is_spent(&step->work) && rho_plots_next(look, &near, &i);) {
-        const unsigned owner = tracker->bodies.groups.owner[i];
-        rho_work_spend(&step->work, PASS_UNITS);
-        if (owner != RHO_NO_ROW) {
-            compare_older(look, row, owner, &nearest, &least_m);
+        if (!rho_plots_is_within(&near, &look->scan->plots[i])) {
+            continue;
         }
+        rho_work_spend(&step->work, PASS_UNITS);
+        *is_seen |= groups->owner[i] == row;
+        if (groups->owner[i] != last) { /* neighbouring plots are often of one track */
+            last = groups->owner[i];
+            compare_older(look, row, last, &nearest, &least_m);
+        }
+        compare_older(look, row, groups->contender[i], &nearest, &least_m);
     }
-    for (unsigned i = 0; i < tracker->num_tracks && track->hits <= MISSED_MOST; i++) {
-        if (may_replace(tracker, i, row)) {
-            compare_older(look, row, i, &nearest, &least_m);
+    if (track->hits <= MISSED_MOST) {
+        rho_work_spend(&step->work, tracker->num_tracks / RHO_WORK_PASSED_A_UNIT);
+        for (unsigned i = 0; i < tracker->num_tracks; i++) {
+            if (may_replace(tracker, i, row)) {
+                compare_older(look, row, i, &nearest, &least_m);
+            }
         }
     }
     return nearest;
 }
 
+/* What the plots of a look say of two tracks. */
+struct pair_evidence {
+    float nat;         /* ln of the likelihoods' ratio of two bodies to one */
+    int is_by_younger; /* the one body is that of the younger track: the older has lost it */
+};
+
 /* ln of the likelihoods' ratio of two bodies to one, by the look's plots of two tracks. */
-static float evidence_of_two(struct step *step, unsigned older, unsigned younger)
+static struct pair_evidence evidence_of_two(struct step *step, unsigned older, unsigned younger)
 {
     const struct rho_look *look = &step->look;
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
     const struct body_outline first = rho_bodies_outline_track(tracker, older),
                               second = rho_bodies_outline_track(tracker, younger),
-                              joint = rho_bodies_join_outlines(tracker, older, younger);
+                              joint = rho_bodies_join_outlines(tracker, older, younger, &first,
+                                                               &second);
     /* two bodies fit the same plots better than one: that is no evidence, unless they are known */
     const float known = rho_larger(tracker->bodies.of[younger].two_nat, 0.0f) / TWO_MOST_NAT;
     const float plot_nat = TWO_PLOT_NAT * (1.0f - known);
-    const int replaces = may_replace(tracker, older, younger);
     unsigned num_plots = 0;
+    rho_work_spend(&step->work, EVIDENCE_UNITS);
     float joint_nat = -TWO_LOOK_NAT, first_nat = -TWO_LOOK_NAT, second_nat = -TWO_LOOK_NAT;
     const float half_m = 2.0f * tracker->bodies.length_max_m + LOOSE_SIGMAS * look->sigma_max_m +
                          rho_bodies_moved_m(look, joint.velocity_mps);
@@ -136,40 +169,56 @@ static float evidence_of_two(struct step *step, unsigned older, unsigned younger
         first_nat += rho_log(two / (by_first * joint.plots / first.plots + far)) - plot_nat;
         second_nat += rho_log(two / (by_second * joint.plots / second.plots + far)) - plot_nat;
     }
+    const int is_by_younger =
+        may_replace(tracker, older, younger) && second_nat < first_nat && second_nat < joint_nat;
+    float nat = is_by_younger ? second_nat : rho_smaller(joint_nat, first_nat);
     /* a look says little: plots are not independent, and older tracks change from look to look */
-    first_nat = replaces ? rho_smaller(first_nat, second_nat) : first_nat;
-    const float nat = rho_larger(rho_smaller(joint_nat, first_nat), -TWO_LOOK_MOST_NAT);
-    return num_plots > 0 ? rho_smaller(nat, TWO_LOOK_MOST_NAT) : 0.0f;
+    nat = rho_smaller(rho_larger(nat, -TWO_LOOK_MOST_NAT), TWO_LOOK_MOST_NAT);
+    return (struct pair_evidence){num_plots > 0 ? nat : 0.0f, is_by_younger};
 }
 
-static void swap_bytes(void *one, void *other, unsigned size)
+/* Gives the estimate of a younger track to an older one that has lost their target. */
+static void take_estimate(struct rho_track *older, struct rho_track *younger)
 {
-    uint8_t *a = one, *b = other;
-    for (unsigned i = 0; i < size; i++) {
-        const uint8_t was = a[i];
-        a[i] = b[i];
-        b[i] = was;
+    const uint8_t filter = older->filter;
+    const uint16_t slot = older->slot;
+    older->filter = younger->filter;
+    older->slot = younger->slot;
+    younger->filter = filter;
+    younger->slot = slot; /* it is freed as the younger track ends */
+    older->kalman = younger->kalman;
+    older->input = younger->input;
+    older->maneuver_probability = younger->maneuver_probability;
+    older->is_undecided = younger->is_undecided;
+    older->num_velocities = younger->num_velocities;
+    for (unsigned i = 0; i < 3; i++) {
+        older->accel_mps2[i] = younger->accel_mps2[i];
+        older->newest_mps[i] = younger->newest_mps[i];
+        older->before_mps[i] = younger->before_mps[i];
+    }
+    older->time_us = younger->time_us;
+    older->updated_us = younger->updated_us;
+    older->seen_us = younger->seen_us;
+    older->sensor_id = younger->sensor_id;
+    older->misses_in_row = younger->misses_in_row;
+    older->has_shown = 0;
+    older->plot_m[0] = younger->plot_m[0];
+    older->plot_m[1] = younger->plot_m[1];
+    older->plot_sigma_m = younger->plot_sigma_m;
+    if (rho_track_existence(older) < rho_track_existence(younger)) {
+        older->visible = younger->visible;
+        older->hidden = younger->hidden;
+        older->lived_us = younger->lived_us;
     }
 }
 
-/* Gives the estimate and the life of a younger track to an older one that has lost the target. */
-static void exchange_estimates(struct rho_track *older, struct rho_track *younger)
-{
-    swap_bytes(older, younger, sizeof *older);
-    swap_bytes(&older->track_id, &younger->track_id, sizeof older->track_id);
-    swap_bytes(&older->hits, &younger->hits, sizeof older->hits);
-    swap_bytes(&older->misses, &younger->misses, sizeof older->misses);
-    swap_bytes(&older->status, &younger->status, sizeof older->status);
-    swap_bytes(&older->was_confirmed, &younger->was_confirmed, sizeof older->was_confirmed);
-}
-
-/* Leaves one of two tracks of one target, with the number of the older and the plots of both. */
-static void end_duplicate(struct step *step, unsigned older, unsigned younger)
+/* Leaves the older of two tracks of one target, with the plots of both. */
+static void end_duplicate(struct step *step, unsigned older, unsigned younger, int is_by_younger)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     struct rho_track *tracks = step->tracker->tracks;
-    if (tracks[older].misses_in_row > tracks[younger].misses_in_row) {
-        exchange_estimates(&tracks[older], &tracks[younger]);
+    if (is_by_younger) {
+        take_estimate(&tracks[older], &tracks[younger]);
     }
     for (uint32_t i = 0; i < step->look.num_gated; i++) {
         if (groups->owner[i] == younger) {
@@ -188,14 +237,21 @@ void rho_bodies_end_duplicates(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = tracker->num_tracks; step->look.teaches && row-- > 0;) {
         struct rho_body_filter *body = &tracker->bodies.of[row];
-        if (!rho_bodies_may_own(&step->look, row) || rho_work_is_spent(&step->work)) {
+        int is_seen = 0;
+        if (!rho_bodies_may_own(&step->look, row)) {
             continue;
         }
-        const unsigned older = nearest_older(step, row);
-        const float nat = older == RHO_NO_ROW ? APART_NAT : evidence_of_two(step, older, row);
-        body->two_nat = rho_smaller(body->two_nat + nat, TWO_MOST_NAT);
+        const unsigned older = nearest_older(step, row, &is_seen);
+        struct pair_evidence found = {is_seen ? APART_NAT : 0.0f, 0};
+        if (older != RHO_NO_ROW) {
+            found = evidence_of_two(step, older, row);
+        }
+        if (rho_work_is_spent(&step->work)) {
+            return; /* not all plots were asked */
+        }
+        body->two_nat = rho_smaller(body->two_nat + found.nat, TWO_MOST_NAT);
         if (older != RHO_NO_ROW && body->two_nat < -ONE_BODY_NAT) {
-            end_duplicate(step, older, row);
+            end_duplicate(step, older, row, found.is_by_younger);
         }
     }
 }

@@ -46,11 +46,11 @@ struct body_outline rho_bodies_outline_track(const struct rho_tracker *tracker, 
 }
 
 struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, unsigned row,
-                                             unsigned other_row)
+                                             unsigned other_row, const struct body_outline *of,
+                                             const struct body_outline *of_other)
 {
     const struct rho_body_filter *body = &tracker->bodies.of[row];
-    const struct body_outline one = rho_bodies_outline_track(tracker, row),
-                              other = rho_bodies_outline_track(tracker, other_row);
+    const struct body_outline one = *of, other = *of_other;
     const float longest_m = tracker->bodies.length_max_m;
     const float widest_m = body->has_heading && body->heading_sigma_rad < HEADING_KNOWN_RAD
                                ? rho_bodies_widest_m(longest_m)
@@ -60,10 +60,15 @@ struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, 
     const float along_m = one.cos_heading * dx_m + one.sin_heading * dy_m,
                 across_m = one.cos_heading * dy_m - one.sin_heading * dx_m;
     struct body_outline joint = one;
-    float extent_m2[3], turned_m2[3];
+    float extent_m2[3], turned_m2[3], error_m2[3];
+    const float *p = tracker->tracks[other_row].kalman.covariance;
+    const float place_m2[3] = {p[RHO_AT(RHO_X, RHO_X)], p[RHO_AT(RHO_X, RHO_Y)],
+                               p[RHO_AT(RHO_Y, RHO_Y)]};
     rho_body_place_covariance(&tracker->bodies.of[other_row], extent_m2);
     rho_body_rotate_covariance(one.cos_heading, one.sin_heading, extent_m2, turned_m2);
+    rho_body_rotate_covariance(one.cos_heading, one.sin_heading, place_m2, error_m2);
     for (unsigned i = 0; i < 3; i++) {
+        joint.error_m2[i] = share * one.error_m2[i] + left * error_m2[i];
         joint.velocity_mps[i] += left * (other.velocity_mps[i] - one.velocity_mps[i]);
         joint.velocity_m2ps2[i] = share * one.velocity_m2ps2[i] + left * other.velocity_m2ps2[i];
     }

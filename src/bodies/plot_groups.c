@@ -61,6 +61,20 @@ static struct body_outline widened_outline(const struct rho_tracker *tracker, un
     return outline;
 }
 
+/* False of a plot that is surely out of the gate: a cheap test of most plots near a body. */
+static int may_be_in_gate(const struct body_outline *outline, const struct rho_plot *plot)
+{
+    const float after_s = (float)plot->offset_us * 1e-6f;
+    const float dx_m = plot->x_m - outline->place_m[0] - after_s * outline->velocity_mps[0],
+                dy_m = plot->y_m - outline->place_m[1] - after_s * outline->velocity_mps[1];
+    const float noise_m2 =
+        plot->sigma_range_m * plot->sigma_range_m + plot->sigma_cross_m * plot->sigma_cross_m;
+    return dx_m * dx_m + dy_m * dy_m <=
+           BODY_GATE_SIGMAS * BODY_GATE_SIGMAS *
+               (outline->along_m2 + outline->across_m2 + outline->error_m2[0] +
+                outline->error_m2[2] + noise_m2);
+}
+
 /*
  * Returns 1 where a plot is in the gate of a body, and its range rate, if measured, agrees with the
  * track's velocity and a turn of the body. *misfit: -2 ln of the plot's likelihood.
@@ -111,10 +125,15 @@ static void find_owners(struct step *step)
         struct plots_near near =
             rho_plots_near(step->tracker, place_m[0] - half_m, place_m[0] + half_m,
                            place_m[1] - half_m, place_m[1] + half_m);
+        uint32_t passed = 0;
         for (uint32_t i; !rho_work_is_spent(&step->work) && rho_plots_next(look, &near, &i);) {
             const struct rho_plot *plot = &look->scan->plots[i];
             float misfit;
             if (step->report->fates[i] != RHO_FATE_HELD || !rho_plots_is_within(&near, plot)) {
+                continue;
+            }
+            passed++;
+            if (!may_be_in_gate(&outline, plot)) {
                 continue;
             }
             rho_work_spend(&step->work, TEST_UNITS);
@@ -134,6 +153,7 @@ static void find_owners(struct step *step)
             groups->owner[i] = (uint16_t)row;
             groups->misfit[i] = misfit;
         }
+        rho_work_spend(&step->work, passed / RHO_WORK_PASSED_A_UNIT);
     }
 }
 

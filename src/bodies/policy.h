@@ -6,9 +6,8 @@
 /* More than one file */
 
 /*
- * Plots, looks or overlaps after which a body is judged: its extent and velocity have settled, a
- * turn has been seen, and two targets that pass each other are apart. Half: chance splits bodies
- * and ends tracks. Twice: two targets are one, and one has two tracks, for longer.
+ * Plots or looks after which a body is judged: its extent and velocity have settled, and a turn has
+ * been seen. Half: chance splits bodies. Twice: two targets are one for longer.
  */
 #define SETTLED_LOOKS 30.0f
 /*
@@ -105,7 +104,7 @@
  */
 #define TWO_LOOK_NAT 0.3f
 #define TWO_PLOT_NAT 0.3f
-/* Most that a look says, either way. Half: second tracks last. Twice: one look decides. */
+/* Most that a look says, either way. Half: second tracks last. Twice: a stray ends known tracks. */
 #define TWO_LOOK_MOST_NAT 4.0f
 /* Evidence at which a track ends. Half: new neighbours are lost. Twice: second tracks are shown. */
 #define ONE_BODY_NAT 3.0f
@@ -118,7 +117,7 @@
 /* body_extents.c: weight of a look in the mean number of plots. Half or twice: slower, noisier. */
 #define PLOTS_SHARE 0.07f
 /*
- * Width of the widest body, as a share of the longest, or for bodies as short as this, m, their
+ * Width of the widest body: a share of the longest, but this many m at least, and at most the
  * length: people are round. Half: lorries are split. Twice: cars abreast keep one track.
  */
 #define WIDEST_SHARE 0.3f
@@ -140,7 +139,7 @@
  * tracks are missed. Twice: bodies beside each other lack the plots between them.
  */
 #define CONTESTED_MISFIT 6.0f
-/* Units of work: a plot compared with a body; with three, for evidence; with another plot; passed. */
+/* Units of work: a plot compared with a body; with three bodies; with a plot; passed over. */
 enum { TEST_UNITS = 6, EVIDENCE_UNITS = 18, PAIR_UNITS = 2, PASS_UNITS = 1 };
 
 #endif

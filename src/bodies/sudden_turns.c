@@ -24,6 +24,9 @@ static int may_be_of_track(const struct rho_look *look, const struct body_outlin
         return 0;
     }
     rho_bodies_fit_plot(look, outline, &look->scan->plots[plot], fit);
+    if (!fit->has_rate) {
+        return 0; /* it is at the sensor, and says nothing */
+    }
     const float along_m2 = fit->noise_m2[0] + outline->along_m2, cross_m2 = fit->noise_m2[1],
                 across_m2 = fit->noise_m2[2];
     return across_m2 * fit->along_m * fit->along_m -
@@ -39,7 +42,7 @@ static float plot_evidence(const struct outline_fit *fit, float turn_mps)
                 loose = usual + turn_mps * turn_mps;
     const float nat = 0.5f * (fit->rate.mps * fit->rate.mps * (1.0f / usual - 1.0f / loose) -
                               rho_log(loose / usual));
-    return fit->has_rate ? rho_smaller(nat, TURN_PLOT_NAT) : 0.0f;
+    return rho_smaller(nat, TURN_PLOT_NAT);
 }
 
 /* Sums over the plots near a track. is_turned: they say so, and those that do are the track's. */
@@ -57,6 +60,7 @@ static struct turn_evidence sum_plots(struct step *step, const struct body_outli
                        outline->place_m[1] - half_m, outline->place_m[1] + half_m);
     for (uint32_t i; !rho_work_is_spent(&step->work) && rho_plots_next(look, &near, &i);) {
         struct outline_fit fit;
+        rho_work_spend(&step->work, PASS_UNITS);
         if (!rho_plots_is_within(&near, &look->scan->plots[i]) ||
             !may_be_of_track(look, outline, row, i, &fit)) {
             continue;
@@ -93,15 +97,19 @@ void rho_bodies_follow_turns(struct step *step)
             continue;
         }
         struct body_outline outline = rho_bodies_outline_track(tracker, row);
+        rho_work_spend(&step->work, TEST_UNITS);
         const float moved_m =
             turn_mps * rho_smaller(rho_seconds_between(track->updated_us, look->time_us), 1.0f);
         outline.error_m2[0] += moved_m * moved_m;
         outline.error_m2[2] += moved_m * moved_m;
         const struct turn_evidence sum = sum_plots(step, &outline, row, turn_mps, 0);
+        if (rho_work_is_spent(&step->work)) {
+            return; /* not all plots were asked */
+        }
         if (sum.nat > 0.0f && sum.turned >= 2.0f * sum.kept &&
             sum.turned >= TURN_SHARE * outline.plots) {
-            (void)sum_plots(step, &outline, row, turn_mps, 1);
             rho_track_loosen(track, &look->model, turn_mps * turn_mps);
+            (void)sum_plots(step, &outline, row, turn_mps, 1);
         }
     }
 }

@@ -792,6 +792,11 @@ static void prediction_back_without_noise_is_reversible(void **state)
     }
     assert_float_equal(imm->covariance[0], was.covariance[0], 0.01 * was.covariance[0]);
     assert_int_equal(rho_hypotheses_move(&pool, slot + 1, 0), RHO_ERROR_STATE);
+    const float was_m2ps2 =
+        pool.nodes[pool.node_of[slot][0]].imm.steady.covariance[RHO_AT(RHO_VY, RHO_VY)];
+    rho_hypotheses_loosen(&pool, slot, 100.0f);
+    assert_true(pool.nodes[pool.node_of[slot][0]].imm.steady.covariance[RHO_AT(RHO_VY, RHO_VY)] >
+                was_m2ps2 + 99.0f);
 }
 
 /* The pool's steps follow the new mean interval; a model without calm targets ignores it. */

@@ -8,16 +8,12 @@
 #include "../../src/tracker/plots.h"
 #include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
-#include "tracker_setup.h"
+#include "hand_made_look.h"
 
 #if RHO_BODIES
 
 #define LONGEST_M 10.0f
 #define PLOTS_OF_TRACK 4u
-
-static struct step at;
-static struct rho_plot seen[2 * PLOTS_OF_TRACK];
-static struct rho_scan scan;
 
 /* A track that drives east at 10 m/s, with a body 4 m long and 2 m wide. */
 static void make_track_with_body(unsigned row, float x_m, float y_m, unsigned hits)
@@ -56,40 +52,20 @@ static void make_two_tracks(float x_m, float y_m, unsigned hits)
 /* A look with plots on the bodies of some tracks; the other plots are of no track. */
 static void see_bodies(unsigned look, const float offsets_m[2], const float rates_mps[2])
 {
-    struct rho_groups *groups = &tracker.bodies.groups;
-    memset(groups, 0xff, sizeof *groups);
+    num_plots = 0;
     for (unsigned i = 0; i < 2u * PLOTS_OF_TRACK; i++) {
         const unsigned row = i / PLOTS_OF_TRACK;
         const float *state = tracker.tracks[row].kalman.state;
-        const float along_m = (float)uniform(-2.0, 2.0), across_m = (float)uniform(-1.0, 1.0);
-        seen[i] = (struct rho_plot){
-            .x_m = state[RHO_X] + along_m + offsets_m[row],
-            .y_m = state[RHO_Y] + across_m,
-            .range_rate_mps = rates_mps[row],
-            .sigma_range_rate_mps = 0.1f,
-            .sigma_range_m = 0.2f,
-            .sigma_cross_m = 0.2f,
-        };
-        groups->owner[i] = (uint16_t)row;
-        report.fates[i] = RHO_FATE_HELD;
+        const double along_m = uniform(-2.0, 2.0), across_m = uniform(-1.0, 1.0);
+        struct rho_plot *plot = add_plot((double)(state[RHO_X] + offsets_m[row]) + along_m,
+                                         (double)state[RHO_Y] + across_m, 0.2);
+        plot->range_rate_mps = rates_mps[row];
+        plot->sigma_range_rate_mps = 0.1f;
     }
-    scan = (struct rho_scan){.time_us = 50000 * (int64_t)look,
-                             .measures = RHO_MEASURES_RANGE_RATE,
-                             .num_plots = 2u * PLOTS_OF_TRACK,
-                             .plots = seen};
-    at = (struct step){.tracker = &tracker,
-                       .report = &report,
-                       .look = {.tracker = &tracker,
-                                .scan = &scan,
-                                .fates = report.fates,
-                                .time_us = scan.time_us,
-                                .teaches = 1,
-                                .num_inputs = scan.num_plots,
-                                .num_gated = scan.num_plots,
-                                .sigma_max_m = 0.2f,
-                                .in_view = {3}}};
-    rho_plots_index(&tracker, &at.look);
-    rho_work_begin_phase(&tracker, &at.work, 1);
+    begin_look(50000 * (int64_t)look, 0.2f);
+    for (unsigned i = 0; i < num_plots; i++) {
+        tracker.bodies.groups.owner[i] = (uint16_t)(i / PLOTS_OF_TRACK);
+    }
 }
 
 /* Looks until a track ends, with the same plots for both; 0: none ends within a thousand. */
@@ -119,8 +95,8 @@ static void the_younger_of_two_tracks_of_one_car_ends(void **state)
     for (unsigned i = 0; i < 2u * PLOTS_OF_TRACK; i++) {
         assert_int_equal(tracker.bodies.groups.owner[i], 0); /* the older has all plots */
     }
-    make_two_tracks(0.5f, 0.0f, 100); /* older is the one with more hits */
-    tracker.tracks[0].hits = 99;
+    make_two_tracks(0.5f, 0.0f, 100); /* the one that was confirmed goes on */
+    tracker.tracks[1].was_confirmed = 1;
     assert_in_range(looks_until_one_ends(alike_mps), 1, 5);
     assert_int_equal(tracker.tracks[0].status, RHO_TRACK_FREE);
 }
@@ -137,7 +113,7 @@ static void cars_apart_stay_two(void **state)
     assert_int_equal(looks_until_one_ends((const float[2]){10.0f, 13.0f}), 0);
 }
 
-/* Bumper to bumper two cars are no longer than a lorry: known as two they stay, else they do not. */
+/* Bumper to bumper two cars are as long as a lorry: known as two they stay, else they do not. */
 static void what_is_known_to_be_two_stays_two(void **state)
 {
     (void)state;
@@ -167,6 +143,33 @@ static void a_track_apart_becomes_known(void **state)
     }
 }
 
+/* Unseen is not apart: without plots nothing is learned. */
+static void a_look_without_plots_says_nothing(void **state)
+{
+    (void)state;
+    make_two_tracks(0.5f, 0.0f, 1000);
+    for (unsigned look = 1; look <= 40; look++) {
+        see_bodies(look, (const float[2]){500.0f, 500.0f}, alike_mps);
+        memset(tracker.bodies.groups.owner, 0xff, sizeof tracker.bodies.groups.owner);
+        rho_bodies_end_duplicates(&at);
+    }
+    assert_float_equal(tracker.bodies.of[1].two_nat, 0.0f, 0.0f);
+    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
+}
+
+/* Where the step's work is used up, not all plots are asked, and no track ends. */
+static void a_look_beyond_the_work_says_nothing(void **state)
+{
+    (void)state;
+    make_two_tracks(0.5f, 0.0f, 1000);
+    for (unsigned look = 1; look <= 40; look++) {
+        see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
+        at.work.spent = at.work.share.end = 10;
+        rho_bodies_end_duplicates(&at);
+    }
+    assert_float_equal(tracker.bodies.of[1].two_nat, 0.0f, 0.0f);
+}
+
 /* A scan that is out of sequence says nothing. */
 static void late_scans_end_no_track(void **state)
 {
@@ -187,6 +190,7 @@ static void make_lost_and_new_track(unsigned missed, unsigned hits, float dvx_mp
     make_two_tracks(-2.0f, 0.0f, 1000);
     tracker.tracks[0].misses_in_row = (uint8_t)missed;
     tracker.tracks[0].was_confirmed = 1;
+    tracker.tracks[0].is_operators = 1;
     tracker.tracks[1].hits = (uint16_t)hits;
     tracker.tracks[1].kalman.state[RHO_VX] += dvx_mps;
     for (unsigned look = 1; look <= 20 && tracker.tracks[1].status != RHO_TRACK_FREE; look++) {
@@ -209,6 +213,7 @@ static void a_lost_track_goes_on_with_the_estimate_of_a_new_one(void **state)
     assert_int_equal(tracker.tracks[1].status, RHO_TRACK_FREE);
     assert_int_equal(tracker.tracks[0].track_id, 1);
     assert_int_equal(tracker.tracks[0].hits, 1000);
+    assert_int_equal(tracker.tracks[0].is_operators, 1); /* what is the track's own stays */
     assert_int_equal(tracker.tracks[0].was_confirmed, 1);
     assert_float_equal(tracker.tracks[0].kalman.state[RHO_X], 98.0f, 0.0f);
     assert_float_equal(tracker.tracks[0].kalman.state[RHO_VX], 10.0f - 0.9f * most_mps, 1e-3);
@@ -325,6 +330,8 @@ int main(void)
         cmocka_unit_test(cars_apart_stay_two),
         cmocka_unit_test(what_is_known_to_be_two_stays_two),
         cmocka_unit_test(a_track_apart_becomes_known),
+        cmocka_unit_test(a_look_without_plots_says_nothing),
+        cmocka_unit_test(a_look_beyond_the_work_says_nothing),
         cmocka_unit_test(late_scans_end_no_track),
         cmocka_unit_test(a_lost_track_goes_on_with_the_estimate_of_a_new_one),
         cmocka_unit_test(a_suddenly_appearing_truck_has_one_track),

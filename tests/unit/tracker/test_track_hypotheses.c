@@ -326,9 +326,35 @@ static void bearings_are_gated_with_a_possible_new_input(void **state)
     assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 1);
 }
 
+/* A target that may have turned: both models are less certain of its velocity, and of no place. */
+static void a_loosened_track_is_uncertain_of_its_velocity(void **state)
+{
+    (void)state;
+    const uint16_t slot = open_slot();
+    const struct rho_imm before = pool.nodes[pool.node_of[slot][0]].imm;
+    rho_hypotheses_loosen(&pool, slot, 9.0f);
+    const struct rho_imm *after = &pool.nodes[pool.node_of[slot][0]].imm;
+    for (int i = 0; i < 6; i++) {
+        const float more = i == RHO_VX || i == RHO_VY ? 9.0f : 0.0f;
+        assert_float_equal(after->steady.covariance[RHO_AT(i, i)],
+                           before.steady.covariance[RHO_AT(i, i)] + more, 1e-3);
+        assert_float_equal(after->covariance[RHO_AT(i, i)], before.covariance[RHO_AT(i, i)] + more,
+                           1e-3);
+    }
+    const struct rho_track_model model = {.hypotheses = &pool};
+    struct rho_track track = {
+        .filter = RHO_TRACK_HYPOTHESES, .slot = slot, .kalman = estimate_at_rest()};
+    const float was = track.kalman.covariance[RHO_AT(RHO_VX, RHO_VX)];
+    rho_track_loosen(&track, &model, 4.0f);
+    assert_float_equal(track.kalman.covariance[RHO_AT(RHO_VX, RHO_VX)], was + 4.0f, 1e-3);
+    assert_float_equal(after->covariance[RHO_AT(RHO_VY, RHO_VY)],
+                       before.covariance[RHO_AT(RHO_VY, RHO_VY)] + 13.0f, 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_loosened_track_is_uncertain_of_its_velocity),
         cmocka_unit_test(a_hypothesis_without_height_accepts_any_height),
         cmocka_unit_test(a_bearing_drops_hypotheses_it_contradicts),
         cmocka_unit_test(a_bearing_undefined_for_a_hypothesis_is_its_miss),

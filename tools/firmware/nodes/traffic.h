@@ -4,7 +4,7 @@
  * plots with range rates, 64 vehicles of up to 90 m/s and 15 m length, with estimated extents. No
  * clutter map, to save flash.
  */
-#define RHO_WORK_MAX 13600
+#define RHO_WORK_MAX 12800
 #define RHO_MAX_SCANS 4
 #define RHO_MAX_PLOTS 128
 #define RHO_MAX_TRACKS 64

@@ -17,6 +17,7 @@ struct scene_body scene_body_read(struct json_object *object)
     body.scatterers = json_read_count(&one, "scatterers", 1, SCENE_SCATTERERS_MAX, 0);
     body.seen = json_read_number(&one, "seen", 0, 1, 0.9);
     body.is_anew = json_read_flag(&one, "is_anew", false);
+    body.limbs_mps = json_read_number(&one, "limbs_mps", 0, 100, 0);
     if (body.width_m > body.length_m) {
         json_fail_key(&one, "width_m", "is more than length_m");
     }

@@ -18,6 +18,7 @@ struct scene_body {
     size_t scatterers; /* number of scatterers; 0: a point target */
     double seen;       /* probability of detection of each scatterer at each look */
     bool is_anew;      /* scatterer positions are drawn anew at each look; false: once a run */
+    double limbs_mps;  /* sigma of a scatterer's own velocity on each axis, anew at each look */
 };
 
 /* Reads the key "body" of a target in a scene file. */

@@ -591,7 +591,12 @@ static void add_body_plots(struct observer *observer, const struct scene_body *b
 
     scene_body_draw_scatterers(body, body->is_anew ? &look : &stay, places_m);
     for (size_t i = 0; i < body->scatterers; i++) {
-        const struct sighting on = sighting_of_body_point(sensor, centre, path, places_m[i]);
+        struct sighting on = sighting_of_body_point(sensor, centre, path, places_m[i]);
+
+        if (body->limbs_mps > 0.0) {
+            on.at.vx_mps += body->limbs_mps * random_normal(&look);
+            on.at.vy_mps += body->limbs_mps * random_normal(&look);
+        }
         const double pd = faded_pd(
             fades, observer->index, &on,
             scene_notch_pd(&sensor->notch, range_rate_of(sensor, &on.at, on.range_m), body->seen));
