@@ -65,9 +65,12 @@
 
 /* outline.c */
 
-/* Sigma of a heading below which the width of a body is across it, and not in any direction. */
+/*
+ * Sigma of a heading below which the width of a body is across it, and not in any direction. Half:
+ * cars abreast are one for longer. Twice: new trucks, with their first heading, are two.
+ */
 #define HEADING_KNOWN_RAD 0.2f
-/* Least variance of a place along a body, m^2: against a division by 0. */
+/* Least variance of a place, m^2, against a division by 0. Half or twice: nothing changes. */
 #define LINE_LEAST_M2 1e-6f
 /*
  * Square of a misfit, and share of a density, beyond which a plot is far: strays are as likely by
@@ -108,13 +111,21 @@
 #define TWO_LOOK_MOST_NAT 4.0f
 /* Evidence at which a track ends. Half: new neighbours are lost. Twice: second tracks are shown. */
 #define ONE_BODY_NAT 3.0f
-/* Evidence by a look apart from all others, and its sum at most. Half: two who meet become one. */
+/*
+ * Evidence by a look apart from all others, and its sum at most. Half: two who meet become one.
+ * Twice: a second track that was once apart stays.
+ */
 #define APART_NAT 1.0f
 #define TWO_MOST_NAT 30.0f
-/* Hits of a track that may replace one which was lost for as long. Twice: no more are found. */
+/*
+ * Hits of a track that may replace one which was lost for as long. Half: who is hidden as he turns
+ * gets a new number. Twice: his number goes to another who is seen later.
+ */
 #define MISSED_MOST 20u
 
-/* body_extents.c: weight of a look in the mean number of plots. Half or twice: slower, noisier. */
+/* body_extents.c */
+
+/* Weight of a look in the mean number of plots. Half or twice: it follows later, or is noisier. */
 #define PLOTS_SHARE 0.07f
 /*
  * Width of the widest body: a share of the longest, but this many m at least, and at most the
