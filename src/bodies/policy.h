@@ -105,7 +105,7 @@
  * Evidence against two bodies for one in each look, and in each of its plots, ln: two fit better
  * than one by chance. Half: halves of trucks stay two tracks. Twice: people side by side are one.
  */
-#define TWO_LOOK_NAT 0.3f
+#define TWO_LOOK_NAT 0.1f
 #define TWO_PLOT_NAT 0.3f
 /* Most that a look says, either way. Half: second tracks last. Twice: a stray ends known tracks. */
 #define TWO_LOOK_MOST_NAT 4.0f
