@@ -3,7 +3,7 @@
 # by a guided search for the worst step. `step_cost_limits_of NAME` sets the fixed instructions of a
 # step (a), those of a unit of work (b), and the instructions that the processor has time for
 # (most): a quarter of the scan interval at 168 MHz; 4 million for `smallest`; `full` is taken with
-# 4 s a scan; `traffic` has 0.55 of its interval, which is less than a quarter of it at 480 MHz
+# 4 s a scan; `traffic` has 0.56 of its interval, which is less than a quarter of it at 480 MHz
 # (M7). Of `finders` a step is a second, of four looks with a search for tracks in bearings.
 shipped='full en_route marine traffic smallest finders'
 step_cost_limits_of() {
@@ -12,7 +12,7 @@ step_cost_limits_of() {
     full) most=168000000 ;;
     en_route) most=420000000 ;;
     marine) most=105000000 ;;
-    traffic) a=3450000 most=4620000 ;;
+    traffic) a=3500000 most=4700000 ;;
     smallest) a=2200000 most=4000000 ;;
     finders) a=15000000 b=180 most=42000000 ;;
     *) return 1 ;;
