@@ -9,8 +9,8 @@
  *
  * where R is the plot's noise, for scatterers that are spread over a rectangle of length L and
  * width W. The means of squares less R are smoothed over some 500 plots without noise. The prior
- * length is half of the longest body, with next to no weight; the prior width a third of that,
- * known to 30 %. Both belong to a frame that turns with the body. If the heading is wrong, a look's
+ * length is half of the longest body, with next to no weight; the prior width is that over the
+ * aspect, known to 30 %. Both belong to a frame that turns with the body. If the heading is wrong, a look's
  * plots lie along a sloping line. The part of the slope that the heading's sigma explains, beyond
  * the learned slope of the scatterers themselves, is subtracted, and the width is corrected for it.
  *
