@@ -197,9 +197,7 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
                        rho_is_within(body->slope, -1e12f, 1e12f) &&
                        rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
                        rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
-                       rho_is_within(body->plots, 1.0f, 1e6f) &&
-                       rho_is_within(body->two_nat, -1e3f, 1e3f) &&
-                       rho_is_stored_time(doubt->time_us);
+                       rho_is_within(body->plots, 1.0f, 1e6f) && rho_is_stored_time(doubt->time_us);
         for (unsigned k = 0; k < sizeof counts / sizeof *counts; k++) {
             is_sound &= rho_is_within(counts[k], 0.0f, 1e9f);
         }

@@ -22,14 +22,20 @@ static int is_older(const struct rho_tracker *tracker, unsigned row, unsigned ot
     return is_known != is_other_known ? is_known : row < other;
 }
 
-/* True where two tracks may have one velocity; targets that pass each other have not. */
-static int move_alike(const struct rho_track *one, const struct rho_track *other)
+/* True where the velocities of two tracks differ by this at most. */
+static int differ_at_most(const struct rho_track *one, const struct rho_track *other,
+                          float most_mps)
 {
     const float vx_mps = one->kalman.state[RHO_VX] - other->kalman.state[RHO_VX],
                 vy_mps = one->kalman.state[RHO_VY] - other->kalman.state[RHO_VY];
-    const float most_mps =
-        BODY_ERROR_SIGMAS * (rho_track_sigma_mps(one) + rho_track_sigma_mps(other));
     return vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
+}
+
+/* True where two tracks may have one velocity; targets that pass each other have not. */
+static int move_alike(const struct rho_track *one, const struct rho_track *other)
+{
+    return differ_at_most(
+        one, other, BODY_ERROR_SIGMAS * (rho_track_sigma_mps(one) + rho_track_sigma_mps(other)));
 }
 
 /* The most, on an axis, by which a turn changes the velocity of a target. */
@@ -45,11 +51,8 @@ static float turn_most_mps(const struct rho_tracker *tracker)
 static int may_replace(const struct rho_tracker *tracker, unsigned older, unsigned younger)
 {
     const struct rho_track *from = &tracker->tracks[older], *to = &tracker->tracks[younger];
-    const float dvx_mps = to->kalman.state[RHO_VX] - from->kalman.state[RHO_VX],
-                dvy_mps = to->kalman.state[RHO_VY] - from->kalman.state[RHO_VY];
-    const float most_mps = turn_most_mps(tracker);
     return from->misses_in_row > 0 && to->hits <= from->misses_in_row + 1u &&
-           dvx_mps * dvx_mps + dvy_mps * dvy_mps <= most_mps * most_mps;
+           differ_at_most(from, to, turn_most_mps(tracker));
 }
 
 /* Distance of a younger track; less than it is from one that may have turned since it was seen. */

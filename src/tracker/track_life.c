@@ -243,8 +243,8 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             const float spared =
                 track->misses_in_row > tracker->config.coast_scans_max ? 0.0f : blind;
             track->visible *= spared + (1.0f - spared) * (1.0f + gain) / sum;
-            track->visible = rho_smaller(track->visible, 1.0f); /* despite rounding */
             track->hidden *= spared + (1.0f - spared) / sum;
+            track->visible = rho_smaller(track->visible, 1.0f - track->hidden); /* rounding */
             track->look_nat = 0.0f;
         }
     }

@@ -10,9 +10,10 @@
  * where R is the plot's noise, for scatterers that are spread over a rectangle of length L and
  * width W. The means of squares less R are smoothed over some 500 plots without noise. The prior
  * length is half of the longest body, with next to no weight; the prior width is that over the
- * aspect, known to 30 %. Both belong to a frame that turns with the body. If the heading is wrong, a look's
- * plots lie along a sloping line. The part of the slope that the heading's sigma explains, beyond
- * the learned slope of the scatterers themselves, is subtracted, and the width is corrected for it.
+ * aspect, known to 30 %. Both belong to a frame that turns with the body. If the heading is wrong,
+ * a look's plots lie along a sloping line. The part of the slope that the heading's sigma explains,
+ * beyond the learned slope of the scatterers themselves, is subtracted, and the width is corrected
+ * for it.
  *
  * Scatterers stay on the body: N of them, each anywhere in its part, determine L with a sigma of
  * L / N^1.5 and the centre with L / (N^1.5 root 12), however long they are seen.

@@ -4,6 +4,7 @@
  * probability of existence behind it; plots beyond a stated coverage, and tracks faster than any
  * target.
  */
+#include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
 #define PI 3.14159265358979323846
@@ -822,6 +823,30 @@ static void tentative_tracks_end_4_6_nat_below_their_start(void **state)
     assert_true(least_nat > -4.7 && least_nat < -3.6);
 }
 
+/* After a sure miss little is left of the sum that the probabilities are divided by. */
+static void probabilities_of_a_life_never_exceed_one(void **state)
+{
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    tracker.num_tracks = 1;
+    for (int misses = 0; misses < 40; misses++) {
+        for (int k = 0; k < 1000; k++) {
+            struct rho_track *track = &tracker.tracks[0];
+            const float hidden = powf(10.0f, -(float)k / 140.0f);
+            *track = (struct rho_track){.status = RHO_TRACK_CONFIRMED,
+                                        .visible = 1.0f - hidden,
+                                        .hidden = hidden,
+                                        .seen_share = 1.0f,
+                                        .misses_in_row = 100,
+                                        .look_nat = -0.5f * (float)misses};
+            const struct rho_look look = {.tracker = &tracker, .pd = 0.9f};
+            rho_life_weigh(&tracker, &look);
+            assert_true(track->visible >= 0.0f && track->visible + track->hidden <= 1.000001f);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -840,6 +865,7 @@ int main(void)
         cmocka_unit_test(plots_beyond_a_stated_coverage_are_invalid),
         cmocka_unit_test(tracks_faster_than_v_max_end_soon),
         cmocka_unit_test(tentative_tracks_end_4_6_nat_below_their_start),
+        cmocka_unit_test(probabilities_of_a_life_never_exceed_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
