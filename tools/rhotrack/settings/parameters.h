@@ -424,6 +424,12 @@ const char *parameters_sensor_name(const struct parameters *parameters, int32_t 
 double parameters_value_of_sensor(const struct parameters *parameters, int32_t sensor_id,
                                   enum sensor_parameter_id id, double otherwise);
 
+/*
+ * Whether a source set the noise of a sensor along or across the line of sight, and none that of
+ * each axis, sigma_m: its Cartesian plots, such as a radar's cloud of points, have that noise too.
+ */
+bool parameters_states_polar_noise(const struct parameters *parameters, int32_t sensor_id);
+
 /* Largest range of a sensor: its own range_max_m, or else that of all sensors. */
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id);
 

@@ -145,6 +145,23 @@ static bool is_parameter_set(const struct parameters *parameters, enum parameter
     return parameters->source[id] > SOURCE_DEFAULT;
 }
 
+bool parameters_states_polar_noise(const struct parameters *parameters, int32_t sensor_id)
+{
+    static const struct {
+        enum sensor_parameter_id own;
+        enum parameter_id common;
+    } sigmas[] = {{SENSOR_SIGMA_M, PARAMETER_SIGMA_M},
+                  {SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M},
+                  {SENSOR_SIGMA_AZIMUTH_RAD, PARAMETER_SIGMA_AZIMUTH_RAD}};
+    bool states[3];
+
+    for (int i = 0; i < 3; i++) {
+        states[i] = is_parameter_set(parameters, sigmas[i].common) ||
+                    !isnan(parameters_value_of_sensor(parameters, sensor_id, sigmas[i].own, NAN));
+    }
+    return !states[0] && (states[1] || states[2]);
+}
+
 /* True where a source set the position noise, for all sensors or for one. */
 static bool is_noise_stated(const struct parameters *parameters)
 {

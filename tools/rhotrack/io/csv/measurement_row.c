@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/csv/measurement_row.h"
 
+#include <math.h>
+
 #include "io/csv/row_cells.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
@@ -175,23 +177,6 @@ static bool read_range_rate(const struct row_reading *reading, int32_t sensor_id
                       sigma_mps);
 }
 
-static bool read_sigmas(const struct row_reading *reading, struct measurement_row *row)
-{
-    const int32_t id = row->sensor_id;
-    struct rho_plot *plot = &row->plot;
-
-    if (!read_sigma(reading, COL_SIGMA_M,
-                    value_of_sensor(reading, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M),
-                    &plot->sigma_range_m) ||
-        !read_sigma(reading, COL_SIGMA_MPS,
-                    value_of_sensor(reading, id, SENSOR_SIGMA_MPS, PARAMETER_SIGMA_MPS),
-                    &plot->sigma_mps)) {
-        return false;
-    }
-    plot->sigma_cross_m = plot->sigma_up_m = plot->sigma_range_m;
-    return true;
-}
-
 static bool read_place(const struct row_reading *reading, struct rho_plot *plot, bool *has_z)
 {
     if (geodetic_has_places(reading->columns->geodetic)) {
@@ -209,21 +194,6 @@ static bool read_place(const struct row_reading *reading, struct rho_plot *plot,
     return row_read_position(&reading->cells, COL_X_M, &plot->x_m) &&
            row_read_position(&reading->cells, COL_Y_M, &plot->y_m) &&
            (!*has_z || row_read_position(&reading->cells, COL_Z_M, &plot->z_m));
-}
-
-static bool read_cartesian_plot(const struct row_reading *reading, struct measurement_row *row)
-{
-    bool has_z = false;
-
-    row->has_measurement = true;
-    if (!read_place(reading, &row->plot, &has_z)) {
-        return false;
-    }
-    row->measures = has_z ? RHO_MEASURES_Z : 0;
-    return read_velocity(reading, row) && read_sigmas(reading, row) &&
-           read_range_rate(reading, row->sensor_id, &row->measures, &row->plot.range_rate_mps,
-                           &row->plot.sigma_range_rate_mps) &&
-           row_read_snr(&reading->cells, &row->plot.snr_db);
 }
 
 #define PI 3.141592653589793
@@ -289,6 +259,79 @@ static bool read_polar_sigmas(const struct row_reading *reading, int32_t sensor_
                                               PARAMETER_SIGMA_AZIMUTH_RAD),
                               &polar->sigma_azimuth_rad) &&
            read_sigma_elevation(reading, sensor_id, &polar->sigma_elevation_rad);
+}
+
+/* Whether the noise of a Cartesian plot is along and across the line of sight of its sensor. */
+static bool has_polar_noise(const struct row_reading *reading, int32_t sensor_id)
+{
+    return !row_has_cell(&reading->cells, COL_SIGMA_M) &&
+           (row_has_cell(&reading->cells, COL_SIGMA_RANGE_M) ||
+            row_has_cell(&reading->cells, COL_SIGMA_AZIMUTH_RAD) ||
+            parameters_states_polar_noise(reading->parameters, sensor_id));
+}
+
+/* Sets the sigmas of a Cartesian plot as those of the polar plot that it was made of. */
+static bool read_sigmas_along_line_of_sight(const struct row_reading *reading,
+                                            struct measurement_row *row)
+{
+    struct rho_plot *plot = &row->plot, noise;
+    const double x_m = (double)plot->x_m - (double)row->sensor.x_m,
+                 y_m = (double)plot->y_m - (double)row->sensor.y_m,
+                 z_m = row->measures & RHO_MEASURES_Z ? (double)plot->z_m - (double)row->sensor.z_m
+                                                      : 0.0;
+    /* nearer than that there is no line of sight */
+    struct rho_polar_plot polar = {
+        .range_m = (float)fmax(hypot(hypot(x_m, y_m), z_m), (double)RHO_RANGE_LEAST_M),
+        .elevation_rad = (float)atan2(z_m, hypot(x_m, y_m))};
+
+    if (!read_polar_sigmas(reading, row->sensor_id, &polar)) {
+        return false;
+    }
+    if (rho_measurement_from_polar(&polar, row->measures & RHO_MEASURES_Z, NULL, &noise) !=
+        RHO_OK) {
+        return row_refuse(&reading->cells, "the place is too far from the sensor");
+    }
+    plot->sigma_range_m = noise.sigma_range_m;
+    plot->sigma_cross_m = noise.sigma_cross_m;
+    plot->sigma_up_m = noise.sigma_up_m;
+    return true;
+}
+
+static bool read_sigmas(const struct row_reading *reading, struct measurement_row *row)
+{
+    const int32_t id = row->sensor_id;
+    struct rho_plot *plot = &row->plot;
+
+    if (!read_sigma(reading, COL_SIGMA_MPS,
+                    value_of_sensor(reading, id, SENSOR_SIGMA_MPS, PARAMETER_SIGMA_MPS),
+                    &plot->sigma_mps)) {
+        return false;
+    }
+    if (has_polar_noise(reading, id)) {
+        return read_sigmas_along_line_of_sight(reading, row);
+    }
+    if (!read_sigma(reading, COL_SIGMA_M,
+                    value_of_sensor(reading, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M),
+                    &plot->sigma_range_m)) {
+        return false;
+    }
+    plot->sigma_cross_m = plot->sigma_up_m = plot->sigma_range_m;
+    return true;
+}
+
+static bool read_cartesian_plot(const struct row_reading *reading, struct measurement_row *row)
+{
+    bool has_z = false;
+
+    row->has_measurement = true;
+    if (!read_place(reading, &row->plot, &has_z)) {
+        return false;
+    }
+    row->measures = has_z ? RHO_MEASURES_Z : 0;
+    return read_velocity(reading, row) && read_sigmas(reading, row) &&
+           read_range_rate(reading, row->sensor_id, &row->measures, &row->plot.range_rate_mps,
+                           &row->plot.sigma_range_rate_mps) &&
+           row_read_snr(&reading->cells, &row->plot.snr_db);
 }
 
 /*
