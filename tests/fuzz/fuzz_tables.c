@@ -2,7 +2,8 @@
 /*
  * The CSV readers on any file: the table itself, plots to scans, bearings to frames, and what the
  * plot command reads (truth and tracks, too). The first byte selects the reader, whether bad rows
- * are skipped, and whether rows within half a second are one scan; the rest is the file.
+ * are skipped, whether rows within half a second are one scan, and whether numbers of frames are
+ * times; the rest is the file.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -201,6 +202,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     refusal_write_file(data + 1, size - 1);
     set_origin(&reading.parameters, (data[0] & 16) != 0);
     reading.parameters.value[PARAMETER_SCAN_INTERVAL_S] = (data[0] & 8) != 0 ? 0.5 : 0.0;
+    reading.parameters.value[PARAMETER_FRAME_RATE_HZ] = (data[0] & 32) != 0 ? 10.0 : 0.0;
     reading.which = data[0];
     refusal_is_refused(read_file, &reading);
     return 0;

@@ -97,6 +97,8 @@
       "walls that show targets twice are learned; 0: those of reflectors alone are known")         \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
       "rows of a sensor within it are one scan; 0: rows of equal t_s; unset: turns, if found")     \
+    X(FRAME_RATE_HZ, "frame_rate_hz", "Hz", 0, 0.01, 1000, 0, 0,                                   \
+      "column frame in place of t_s: times are numbers of frames over it")                         \
     X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0,                                       \
       "area of clutter and births; unset: seen so far")                                            \
     X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \

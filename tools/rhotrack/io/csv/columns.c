@@ -45,6 +45,9 @@ struct columns columns_find(const struct table *table)
             columns.at[i] = table_find_column(table, name_in_degrees((enum column_id)i));
         }
     }
+    if (columns.at[COL_T_S] < 0 && table->frame_rate_hz > 0) {
+        columns.at[COL_T_S] = columns.at[COL_FRAME];
+    }
     if (columns.at[COL_BEARING_RAD] < 0 && columns.at[COL_ELEVATION_RAD] >= 0 &&
         columns.at[COL_RANGE_M] < 0 && columns.at[COL_X_M] < 0 && columns.at[COL_LAT_DEG] < 0) {
         columns.at[COL_BEARING_RAD] = columns.at[COL_AZIMUTH_RAD];
@@ -157,6 +160,10 @@ static const struct {
     {"time", COL_T_S, TIME},
     {"timestamp", COL_T_S, TIME},
     {"datetime", COL_T_S, TIME},
+    {"frame", COL_FRAME, NUMBER},
+    {"frame_number", COL_FRAME, NUMBER},
+    {"framenumber", COL_FRAME, NUMBER},
+    {"frame_id", COL_FRAME, NUMBER},
     {"sensor_id", COL_SENSOR_ID, NUMBER},
     {"sensor", COL_SENSOR_ID, NUMBER},
     {"radar", COL_SENSOR_ID, NUMBER},
@@ -569,6 +576,11 @@ int columns_need(const struct columns *columns, enum column_id column)
 
     if (columns->at[column] >= 0) {
         return columns->at[column];
+    }
+    if (column == COL_T_S && columns->at[COL_FRAME] >= 0) {
+        table_fail_at_row(columns->table, TABLE_HEADER,
+                          "no column 't_s'; of plots 'frame' tells the time, and needs "
+                          "frame_rate_hz: --set frame_rate_hz=10, or what the radar's rate is");
     }
     list_other_names(column, others, sizeof others);
     list_columns_of_file(columns->table, found, sizeof found);

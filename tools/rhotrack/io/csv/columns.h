@@ -40,7 +40,8 @@
     X(TARGET_ID, "target_id")                                                                      \
     X(TRACK_ID, "track_id")                                                                        \
     X(STATUS, "status")                                                                            \
-    X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps")
+    X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps")                                                \
+    X(FRAME, "frame")
 #define COLUMNS_WITH_OTHER_NAMES(X)                                                                \
     X(T_S, "t_s")                                                                                  \
     X(SENSOR_ID, "sensor_id")                                                                      \
@@ -110,8 +111,9 @@ struct columns {
 };
 
 /*
- * Finds all columns, an azimuth or elevation in degrees where there is none in radians. Azimuth and
- * elevation without a range are a bearing and its elevation.
+ * Finds all columns, an azimuth or elevation in degrees where there is none in radians, and the
+ * number of the frame where there is no time and the table has a frame rate. Azimuth and elevation
+ * without a range are a bearing and its elevation.
  */
 struct columns columns_find(const struct table *table);
 

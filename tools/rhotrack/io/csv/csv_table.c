@@ -142,10 +142,22 @@ static const char *parse_time_us(const char *text, double factor, int64_t *time_
     return why;
 }
 
+bool table_is_frame_number(const struct table *table, int column)
+{
+    return table->frame_rate_hz > 0 && strcmp(table->names[column], "frame") == 0;
+}
+
 const char *table_read_time_us(const struct table *table, size_t row, int column, int64_t *time_us)
 {
     const char *text = cell_text(table, row, column);
+    int32_t frame = 0;
 
+    if (text && table_is_frame_number(table, column)) {
+        const char *why = parse_int32_or_give_reason(text, &frame);
+
+        *time_us = llround((double)frame * 1e6 / table->frame_rate_hz);
+        return why;
+    }
     if (text) {
         return parse_time_us(
             text, column_has_unit_factor(table, column) ? table->factors[column] : 0, time_us);

@@ -36,6 +36,8 @@ struct table {
     struct table_column *columns; /* table of numbers: descriptions of the num_columns columns */
     /* units of the columns: value = number * factor + offset; factor 0, or NULL: none */
     double *factors, *offsets;
+    /* above 0: times are numbers of frames over it, where the table has no times (columns.h) */
+    double frame_rate_hz;
     size_t capacity; /* rows that the arrays have room for */
     uint32_t *lines; /* num_rows: the line in the file on which a row begins */
     uint32_t header_line;
@@ -81,12 +83,14 @@ static inline int table_find_column(const struct table *table, const char *name)
 /*
  * Reading cells. The functions that return a text return NULL and set the value, or return the
  * reason why the cell is bad as a constant text (parse.h). table_read_float gives
- * the float32 nearest to the text, as the program that wrote it had it.
+ * the float32 nearest to the text, as the program that wrote it had it. table_read_time_us divides
+ * the number of a frame by the table's frame rate.
  */
 bool table_is_cell_empty(const struct table *table, size_t row, int column);
 const char *table_read_number(const struct table *table, size_t row, int column, double *value);
 const char *table_read_float(const struct table *table, size_t row, int column, float *value);
 const char *table_read_time_us(const struct table *table, size_t row, int column, int64_t *time_us);
+bool table_is_frame_number(const struct table *table, int column);
 const char *table_read_int32(const struct table *table, size_t row, int column, int32_t *value);
 
 /* The cell's text as in the file, or, in the buffer, as a CSV file would have it. */

@@ -150,6 +150,21 @@ bool row_check_unbiased_time(const struct row_check *check, int64_t time_us, int
            row_refuse(check, "t_s minus the sensor's time_bias_s is beyond 4e12 s");
 }
 
+bool row_refuse_decrease(const struct row_check *check, bool is_received, int64_t from_us,
+                         int64_t to_us)
+{
+    const struct columns *columns = check->columns;
+
+    if (!is_received && columns && table_is_frame_number(columns->table, columns->at[COL_T_S])) {
+        return row_refuse_cell(check, COL_T_S,
+                               "is less than one before it: where the radar counted anew, a new "
+                               "file has to begin");
+    }
+    return row_refuse(check, "%s decreases from %.6f s to %.6f s",
+                      is_received ? "received_s" : "time", (double)from_us * 1e-6,
+                      (double)to_us * 1e-6);
+}
+
 bool row_read_received(const struct row_check *check, int64_t *received_us)
 {
     return check->columns->at[COL_RECEIVED_S] < 0 ||

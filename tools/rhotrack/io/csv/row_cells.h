@@ -63,6 +63,13 @@ bool row_read_time_and_sensor(const struct row_check *check, int64_t *time_us, i
 /* Checks that the time is within the library's limits once the sensor's time bias is subtracted. */
 bool row_check_unbiased_time(const struct row_check *check, int64_t time_us, int32_t bias_us);
 
+/*
+ * Refuses a row whose time, of reception where is_received, is before that of an earlier one;
+ * always returns false.
+ */
+bool row_refuse_decrease(const struct row_check *check, bool is_received, int64_t from_us,
+                         int64_t to_us);
+
 /* Reads the reception time; *received_us is unchanged where the file has none. */
 bool row_read_received(const struct row_check *check, int64_t *received_us);
 

@@ -21,6 +21,7 @@
 #include "io/asterix/asterix_track_table.h"
 #include "io/csv/columns.h"
 #include "io/csv/dialect.h"
+#include "settings/parameters.h"
 
 #define FIRST_CAPACITY (1u << 16)
 #define FIRST_TEXT 1024u
@@ -32,6 +33,7 @@
  */
 struct table_stream {
     struct table *table;
+    const struct parameters *parameters; /* NULL: none; used for the header */
     bool keep_going, is_whole, follow, is_plain;
     int file;                          /* file descriptor; -1 for an ASTERIX recording */
     struct asterix_plot_rows *asterix; /* ASTERIX recording; NULL: a CSV file */
@@ -269,6 +271,8 @@ static void process_header_row(struct table_stream *stream)
         }
     }
     columns_rename(table);
+    table->frame_rate_hz =
+        stream->parameters ? stream->parameters->value[PARAMETER_FRAME_RATE_HZ] : 0;
 }
 
 static void add_row_to_table(struct table_stream *stream)
@@ -538,6 +542,7 @@ static struct table_stream *open_stream(const char *path, const struct parameter
     stream->table = must_calloc(1, sizeof *stream->table);
     stream->table->path = must_copy_text(is_standard ? "standard input" : path);
     stream->own = is_standard ? NULL : stream->table->path;
+    stream->parameters = parameters;
     stream->keep_going = keep_going;
     stream->line = 1;
     stream->follow = follow;

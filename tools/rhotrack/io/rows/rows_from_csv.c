@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "io/csv/frame_gaps.h"
 #include "io/csv/row_cells.h"
 #include "io/rows/rows_geodetic.h"
 #include "io/scans/scan_numbers.h"
@@ -18,6 +19,7 @@ struct reading {
     struct columns columns; /* those that the file's kind does not use count as missing */
     const struct parameters *parameters;
     struct rows_geodetic geodetic;
+    struct frame_gaps gaps;
     struct scan_numbers numbers; /* numbered scans, by the indices of their first rows */
     bool has_last;
     int64_t last_us; /* latest time of a row, or of its reception where that is given */
@@ -262,10 +264,8 @@ static bool check_time_order(const struct reading *reading, const struct row_che
         (!reading->file->rows.has_received && is_in_begun_scan(reading, row))) {
         return true;
     }
-    return row_refuse(check, "%s decreases from %.6f s to %.6f s",
-                      reading->file->rows.has_received ? "received_s" : "time",
-                      (double)reading->last_us * 1e-6,
-                      (double)row_order_time_us(reading, row) * 1e-6);
+    return row_refuse_decrease(check, reading->file->rows.has_received, reading->last_us,
+                               row_order_time_us(reading, row));
 }
 
 static void note_row_scan_and_latest_time(struct reading *reading, const struct row *row)
@@ -302,11 +302,41 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
     return why ? row_refuse(check, "%s", why) : check_newest_row_by_encoding(reading, check);
 }
 
+/*
+ * Adds scans without plots for the frames before the newest row in which its sensor saw nothing;
+ * the row stays the newest one.
+ */
+static void add_frames_without_rows(struct reading *reading)
+{
+    struct rows *rows = &reading->file->rows;
+    const struct rows_kind *kind = rows->kind;
+    const struct row newest = rows->list[rows->count - 1];
+    const struct frame_gap gap =
+        frame_gaps_before_row(&reading->gaps, &reading->columns, newest.sensor_id, newest.time_us);
+
+    for (int i = 0; i < gap.count; i++) {
+        struct row *last;
+        double *cells = rows_add_row(rows, &newest);
+
+        for (int j = 0; j < kind->num_columns; j++) {
+            if (!(kind->columns[j].flags & COLUMN_MEASURED)) {
+                cells[j] = rows->cells[newest.cells + (size_t)j];
+            }
+        }
+        last = &rows->list[rows->count - 1];
+        last[-1] = last[0];
+        last[-1].time_us = frame_gap_time_us(&gap, i);
+        last[0] = newest;
+        last[0].order = rows->count - 1;
+    }
+}
+
 /* Adds a row of the table where it is good; else returns false with the reason set. */
 static bool add_row_or_refuse_with_reason(struct reading *reading, const struct row_check *check)
 {
     struct rows *rows = &reading->file->rows;
-    struct row row = {.line = check->columns->table->lines[check->row], .order = check->row};
+    struct row row = {.line = check->columns->table->lines[check->row],
+                      .order = reading->file->rows.count};
 
     if (!read_row_head(reading, check, &row)) {
         return false;
@@ -316,6 +346,9 @@ static bool add_row_or_refuse_with_reason(struct reading *reading, const struct 
         return false;
     }
     note_row_scan_and_latest_time(reading, &row);
+    if (rows->kind->has_sensor) {
+        add_frames_without_rows(reading);
+    }
     return true;
 }
 
@@ -347,6 +380,7 @@ bool rows_read_table_and_has_any(struct rows_file *file, const char *path,
     check_columns(&reading);
     read_rows(&reading);
     rows_geodetic_close(&reading.geodetic);
+    frame_gaps_report(&reading.gaps, path);
     scan_numbers_clear(&reading.numbers);
     return reading.has_last;
 }

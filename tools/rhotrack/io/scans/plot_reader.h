@@ -6,10 +6,10 @@
  * t_s,sensor_id,range_m,azimuth_rad[,elevation_rad][,range_rate_mps]
  * [,sensor_x_m,sensor_y_m,sensor_z_m][,sigma_range_m,...];
  * degrees (columns.h) may stand for the angles in radians, latitudes and longitudes for metres
- * (geodetic_columns.h). Other columns are ignored. Rows of one sensor with
- * the same t_s (or within scan_interval_s) form one scan; with a column scan, rows of the same scan
- * and epoch, up to a minute apart (rows_to_scans.h). A row whose measurement columns are empty is a
- * scan without detections.
+ * (geodetic_columns.h), the number of a frame for t_s (frame_gaps.h). Other columns are ignored.
+ * Rows of one sensor with the same t_s (or within scan_interval_s) form one scan; with a column
+ * scan, rows of the same scan and epoch, up to a minute apart (rows_to_scans.h). A row whose
+ * measurement columns are empty is a scan without detections.
  *
  * Files are read once, row by row; memory does not grow with them. The path "-" is standard input,
  * as CSV.

@@ -75,9 +75,7 @@ bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct g
     int64_t clock_us = reception_time_or_row_time_us(gather, time_us);
 
     return is_within || !gather->has_rows || clock_us >= gather->last_us ||
-           row_refuse(check, "%s decreases from %.6f s to %.6f s",
-                      gather->has_clock ? "received_s" : "time", (double)gather->last_us * 1e-6,
-                      (double)clock_us * 1e-6);
+           row_refuse_decrease(check, gather->has_clock, gather->last_us, clock_us);
 }
 
 static void note_last_heard_time(struct rows_to_scans *gather, struct gathered_scan *scan,

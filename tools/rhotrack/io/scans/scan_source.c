@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/common.h"
+#include "io/csv/frame_gaps.h"
 #include "io/csv/table_stream.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
@@ -29,7 +30,8 @@ struct scan_source {
     struct rows_to_scans gather;
     struct reorder_buffer reorder; /* for a file with reception times, or a log */
     uint32_t item;                 /* of a log: number of the newest scan of bearings, from 1 */
-    uint64_t rows_skipped;         /* bad rows found here; the stream counts its own */
+    struct frame_gaps gaps;
+    uint64_t rows_skipped; /* bad rows found here; the stream counts its own */
 };
 
 /* Checks that a row has the values that all rows of its scan must share. */
@@ -137,6 +139,23 @@ static void number_row_by_turn(const struct scan_source *source, struct measurem
     }
 }
 
+/* Adds scans without plots for the frames before a row in which its sensor saw nothing. */
+static void add_frames_without_rows(struct scan_source *source, const struct measurement_row *row)
+{
+    const struct frame_gap gap = frame_gaps_before_row(&source->gaps, &source->columns.in_file,
+                                                       row->sensor_id, row->time_us);
+    struct measurement_row look = *row;
+
+    look.has_measurement = false;
+    for (int i = 0; i < gap.count; i++) {
+        look.time_us = frame_gap_time_us(&gap, i);
+        add_row_to_scan(
+            source,
+            rows_to_scans_find_scan(&source->gather, look.sensor_id, &look.number, look.time_us),
+            &look);
+    }
+}
+
 /* Checks the table's row and adds it to a scan; a bad row is an error, or skipped and counted. */
 static void process_table_row(struct scan_source *source, const struct table *table)
 {
@@ -152,6 +171,7 @@ static void process_table_row(struct scan_source *source, const struct table *ta
         rows_to_scans_set_reception(&source->gather, row.received_us);
     }
     if (is_good) {
+        add_frames_without_rows(source, &row);
         number_row_by_turn(source, &row);
         scan = rows_to_scans_find_scan(&source->gather, row.sensor_id, &row.number, row.time_us);
         is_good = rows_to_scans_check_time(&source->gather, source->turns ? NULL : scan,
@@ -504,6 +524,7 @@ void scan_source_rewind(struct scan_source *source)
 {
     source->has_good = source->is_over = source->has_columns = false;
     source->item = 0;
+    source->gaps = (struct frame_gaps){.has_last = false};
     source->rows_skipped = 0;
     if (source->log) {
         log_scans_rewind(source->log);
@@ -554,6 +575,7 @@ void scan_source_close(struct scan_source *source)
     if (source->log) {
         log_scans_close(source->log);
     } else {
+        frame_gaps_report(&source->gaps, table_stream_table(source->stream)->path);
         close_rows(source);
     }
     reorder_buffer_free(&source->reorder);

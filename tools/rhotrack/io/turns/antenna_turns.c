@@ -36,7 +36,8 @@ struct antenna_turns {
 
 bool antenna_turns_are_wanted(const struct parameters *parameters)
 {
-    return parameters->source[PARAMETER_SCAN_INTERVAL_S] <= SOURCE_DEFAULT;
+    return parameters->source[PARAMETER_SCAN_INTERVAL_S] <= SOURCE_DEFAULT &&
+           !parameters_has_value(parameters, PARAMETER_FRAME_RATE_HZ);
 }
 
 struct antenna_turns *antenna_turns_start(void)

@@ -14,7 +14,10 @@
 
 struct antenna_turns;
 
-/* Whether turns are to be searched for: the user did not set scan_interval_s. */
+/*
+ * Whether turns are to be searched for: the user set neither scan_interval_s nor frame_rate_hz, by
+ * which scans are known.
+ */
 bool antenna_turns_are_wanted(const struct parameters *parameters);
 
 struct antenna_turns *antenna_turns_start(void);
