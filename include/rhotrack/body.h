@@ -110,9 +110,12 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_body_max(struct rho_tracker *trac
                                                         float length_max_m);
 
 /*
- * Computes the body of a track. track: its index in the report. Returns 0, with *body unchanged,
- * where there is no such track, or no scan had two plots of it so far. Constant cost.
+ * True of a track that has a body. track: its index in the report. 0 where there is no such track,
+ * or no scan had two plots of it so far. Constant cost.
  */
+int rho_tracker_has_body(const struct rho_tracker *tracker, unsigned track);
+
+/* Computes the body of a track. Returns 0, with *body unchanged, where it has none. Constant cost. */
 int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struct rho_body *body);
 
 RHO_END_C

@@ -21,35 +21,10 @@ void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_bodies_ungroup. */
 void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
                        const struct rho_scan *scan);
-/* A plot's range rate less that of a target at the plot's place with a velocity. */
-struct range_rate_residual {
-    float mps;
-    float variance_m2ps2;  /* variance by the noise of the plot's range rate and of its azimuth */
-    float line_turn_m2ps2; /* the azimuth's part of it: its error turns the line of sight */
-    float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
-};
-/* Returns 0 where no range rate was measured, or the plot is at the sensor. */
-int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
-                             const float velocity_mps[3], const struct rho_plot *plot,
-                             struct range_rate_residual *rate);
-/*
- * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate by rho_bodies_rate_residual, whose result rho_bodies_locate_plot returns.
- */
-struct body_plot {
-    float dx_m, dy_m, along_m, across_m;
-    struct range_rate_residual rate;
-};
-int rho_bodies_locate_plot(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
-                           unsigned plot, struct body_plot *at);
-
-/* Covariance of a plot's own noise in the axes of a heading: along, cross, across. */
-void rho_bodies_noise_axes(const struct rho_look *look, float cos_heading, float sin_heading,
-                           const struct rho_plot *plot, float axes[3]);
-
 /* outline.c: where a look's plots of a body are expected */
 struct body_outline {
-    float place_m[2], velocity_mps[3]; /* of its centre, at the look's time */
+    float place_m[2], velocity_mps[3]; /* of its centre */
+    float ahead_s;                     /* from that time to the look's */
     float velocity_m2ps2[3];           /* covariance of the velocity: xx, yx, yy */
     float cos_heading, sin_heading;
     float along_m2, across_m2; /* variances of a place on the body */
@@ -58,24 +33,32 @@ struct body_outline {
 };
 /* The most that a target moves between a look's time and one of its plots, if this fast. */
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2]);
-struct body_outline rho_bodies_outline_track(const struct rho_tracker *tracker, unsigned row);
+struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsigned row);
 /* One body in place of two tracks' outlines, in the axes of the first, as the longest at most. */
 struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, unsigned row,
                                              unsigned other_row, const struct body_outline *of,
                                              const struct body_outline *of_other);
-/* A plot as an outline expects it. */
+/* A plot relative to an outline's centre, at the plot's time. */
 struct outline_fit {
-    float along_m, across_m;         /* distance from the centre */
-    float apart_m;                   /* the same, in any direction */
-    float noise_m2[3];               /* of place and plot: along, cross, across with the width */
-    int has_rate;                    /* 1: a range rate was measured, and rate is set */
-    struct range_rate_residual rate; /* less that of the body's velocity */
-    float track_m2ps2;               /* variance of that velocity along the line of sight */
+    float dx_m, dy_m, along_m, across_m; /* distance in x and y, and along and across the body */
+    float noise_m2[3];                   /* covariance of the place: along, cross, across */
+    int has_rate;                        /* 1: a range rate was measured, and what follows is set */
+    float rate_mps;                      /* less that of a target there with the velocity */
+    float rate_m2ps2;                    /* variance by the noise of rate and azimuth */
+    float line_turn_m2ps2; /* the azimuth's part of it: its error turns the line of sight */
+    float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
 };
+/* Fits a plot, whose noise is its own. A plot at the sensor has no range rate. */
+void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline *outline,
+                         const struct rho_plot *plot, struct outline_fit *fit);
+/* The same, with the noise of outline and plot: of the place, and of the body's width. */
 void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,
                          const struct rho_plot *plot, struct outline_fit *fit);
 /* Variance of a fit's range rate, where a turn of the body spreads the rates of its places. */
-float rho_bodies_rate_variance(const struct outline_fit *fit, float turn_radps);
+float rho_bodies_rate_variance(const struct body_outline *outline, const struct outline_fit *fit,
+                               float turn_radps);
+/* Variance of the outline's velocity along the line of sight of a fit. */
+float rho_bodies_sight_variance(const struct body_outline *outline, const struct outline_fit *fit);
 /* Density of a plot's place and range rate by an outline, times its number of plots. */
 float rho_bodies_density(const struct rho_look *look, const struct body_outline *outline,
                          const struct rho_plot *plot);
@@ -111,6 +94,9 @@ static inline int rho_bodies_may_own(const struct rho_look *look, unsigned row)
 void rho_bodies_begin(struct rho_tracker *tracker, unsigned row);
 /* Prior variance of a place on a body, on each axis. */
 float rho_bodies_prior_m2(const struct rho_tracker *tracker);
+
+/* True once the body's first heading and the track's first velocity are corrected. */
+int rho_bodies_is_settled(const struct rho_tracker *tracker, unsigned row);
 
 /* Width of the widest body: short ones, as people, may be as wide as long. */
 float rho_bodies_widest_m(float longest_m);

@@ -21,6 +21,11 @@ float rho_bodies_prior_m2(const struct rho_tracker *tracker)
     return length_m * length_m / 12.0f;
 }
 
+int rho_bodies_is_settled(const struct rho_tracker *tracker, unsigned row)
+{
+    return tracker->bodies.of[row].plots >= SETTLED_PLOTS;
+}
+
 float rho_bodies_widest_m(float longest_m)
 {
     return rho_larger(WIDEST_SHARE * longest_m, rho_smaller(longest_m, ROUND_MOST_M));
@@ -58,53 +63,6 @@ void rho_bodies_align(struct rho_tracker *tracker)
     bodies->count = tracker->num_tracks;
 }
 
-int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
-                             const float velocity_mps[3], const struct rho_plot *plot,
-                             struct range_rate_residual *rate)
-{
-    float row[6], rate_mps;
-    const float state[6] = {plot->x_m,       plot->y_m,       plot->z_m,
-                            velocity_mps[0], velocity_mps[1], velocity_mps[2]};
-    if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_predict_rate(state, look->sensor, (scan->measures & RHO_MEASURES_Z) != 0,
-                                      row, &rate_mps)) {
-        return 0;
-    }
-    rate->sight_line[0] = row[3];
-    rate->sight_line[1] = row[4];
-    rate->mps = rho_measurement_innovation_mps(look->sensor, plot->range_rate_mps, rate_mps);
-    const float turned_mps = (row[3] * row[1] - row[4] * row[0]) * plot->sigma_cross_m;
-    rate->line_turn_m2ps2 = turned_mps * turned_mps;
-    rate->variance_m2ps2 =
-        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + rate->line_turn_m2ps2;
-    return 1;
-}
-
-int rho_bodies_locate_plot(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
-                           unsigned plot, struct body_plot *at)
-{
-    const struct rho_body_filter *body = &look->tracker->bodies.of[row];
-    const struct rho_track *track = &look->tracker->tracks[row];
-    const struct rho_plot *seen = &scan->plots[plot];
-    const float after_s = rho_seconds_between(track->time_us, look->time_us + seen->offset_us);
-    const float *state = track->kalman.state;
-    *at = (struct body_plot){.dx_m = seen->x_m - state[RHO_X] - after_s * state[RHO_VX],
-                             .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
-    at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
-    at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
-    return rho_bodies_rate_residual(look, scan, &state[RHO_VX], seen, &at->rate);
-}
-
-void rho_bodies_noise_axes(const struct rho_look *look, float cos_heading, float sin_heading,
-                           const struct rho_plot *plot, float axes[3])
-{
-    struct rho_measurement seen;
-    float noise[6];
-    rho_measurement_from_plot(plot, 0, look->sensor, &seen);
-    rho_measurement_covariance(&seen, noise);
-    rho_body_rotate_covariance(cos_heading, sin_heading, noise, axes);
-}
-
 void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row)
 {
     const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
@@ -129,35 +87,38 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
         }
         rho_bodies_set_heading(tracker, row);
         const struct rho_bodies *bodies = &tracker->bodies;
+        const struct body_outline outline = rho_bodies_outline_track(look, row);
         struct rho_body_filter *body = &tracker->bodies.of[row];
         for (unsigned i = bodies->groups.first[track->plot]; i != RHO_NO_ROW;
              i = bodies->groups.next[i]) {
-            struct body_plot at;
-            float axes[3];
-            (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
-            rho_bodies_noise_axes(look, body->cos_heading, body->sin_heading, &scan->plots[i],
-                                  axes);
+            struct outline_fit at;
+            rho_bodies_see_plot(look, &outline, &scan->plots[i], &at);
             seen.num_plots++;
             seen.along_m2 += at.along_m * at.along_m;
             seen.across_m2 += at.across_m * at.across_m;
             seen.cross_m2 += at.along_m * at.across_m;
-            seen.noise_along_m2 += axes[0];
-            seen.noise_across_m2 += axes[2];
+            seen.noise_along_m2 += at.noise_m2[0];
+            seen.noise_across_m2 += at.noise_m2[2];
         }
         body->plots_a_look += PLOTS_SHARE * ((float)seen.num_plots - body->plots_a_look);
         rho_body_add_plots(body, &seen);
     }
 }
 
-int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struct rho_body *body)
+int rho_tracker_has_body(const struct rho_tracker *tracker, unsigned track)
 {
     const struct rho_bodies *bodies = tracker ? &tracker->bodies : 0;
-    if (!bodies || !body || !rho_tracker_is_ready(tracker) || track >= tracker->num_tracks ||
-        track >= bodies->count || bodies->of[track].track_id != tracker->tracks[track].track_id ||
-        bodies->of[track].most_plots < 2) {
+    return bodies && rho_tracker_is_ready(tracker) && track < tracker->num_tracks &&
+           track < bodies->count && bodies->of[track].track_id == tracker->tracks[track].track_id &&
+           bodies->of[track].most_plots >= 2;
+}
+
+int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struct rho_body *body)
+{
+    if (!body || !rho_tracker_has_body(tracker, track)) {
         return 0;
     }
-    rho_body_shape(&bodies->of[track], body);
+    rho_body_shape(&tracker->bodies.of[track], body);
     return 1;
 }
 

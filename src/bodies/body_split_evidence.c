@@ -32,36 +32,34 @@ static struct look_sums sum_look(const struct rho_look *look, const struct rho_s
     const struct rho_bodies *bodies = &look->tracker->bodies;
     struct look_sums sums = {.first_m = 1e9f, .last_m = -1e9f};
     const struct rho_groups *groups = &bodies->groups;
-    const struct rho_body_filter *body = &bodies->of[row];
-    struct body_plot at;
-    float axes[3];
+    const struct body_outline outline = rho_bodies_outline_track(look, row);
+    struct outline_fit at;
     for (unsigned i =
              rho_bodies_next_own_plot(groups, groups->first[look->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_bodies_next_own_plot(groups, groups->next[i])) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (!rho_bodies_locate_plot(look, scan, row, i, &at) &&
-            (scan->measures & RHO_MEASURES_RANGE_RATE)) {
+        rho_bodies_see_plot(look, &outline, plot, &at);
+        if (!at.has_rate && (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* a plot at the sensor has no line of sight */
         }
-        rho_bodies_noise_axes(look, body->cos_heading, body->sin_heading, plot, axes);
-        const float far_m = at.rate.sight_line[0] * at.dx_m + at.rate.sight_line[1] * at.dy_m,
-                    side_m = at.rate.sight_line[0] * at.dy_m - at.rate.sight_line[1] * at.dx_m;
+        const float far_m = at.sight_line[0] * at.dx_m + at.sight_line[1] * at.dy_m,
+                    side_m = at.sight_line[0] * at.dy_m - at.sight_line[1] * at.dx_m;
         sums.n += 1.0f;
         sums.far += far_m;
         sums.side += side_m;
-        sums.rate += at.rate.mps;
+        sums.rate += at.rate_mps;
         sums.far2 += far_m * far_m;
         sums.cross += far_m * side_m;
         sums.side2 += side_m * side_m;
-        sums.rate2 += at.rate.mps * at.rate.mps;
-        sums.rate_far += at.rate.mps * far_m;
-        sums.rate_side += at.rate.mps * side_m;
+        sums.rate2 += at.rate_mps * at.rate_mps;
+        sums.rate_far += at.rate_mps * far_m;
+        sums.rate_side += at.rate_mps * side_m;
         sums.side_noise_m2 += plot->sigma_cross_m * plot->sigma_cross_m;
-        sums.line_turn_m2ps2 += at.rate.line_turn_m2ps2;
+        sums.line_turn_m2ps2 += at.line_turn_m2ps2;
         sums.rate_noise_m2ps2 += plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
         sums.first_m = rho_smaller(sums.first_m, at.along_m);
         sums.last_m = rho_larger(sums.last_m, at.along_m);
-        sums.noise_m2 = rho_larger(sums.noise_m2, axes[0]);
+        sums.noise_m2 = rho_larger(sums.noise_m2, at.noise_m2[0]);
     }
     return sums;
 }

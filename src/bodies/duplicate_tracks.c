@@ -142,8 +142,8 @@ static struct pair_evidence evidence_of_two(struct step *step, unsigned older, u
     const struct rho_look *look = &step->look;
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
-    const struct body_outline first = rho_bodies_outline_track(tracker, older),
-                              second = rho_bodies_outline_track(tracker, younger),
+    const struct body_outline first = rho_bodies_outline_track(look, older),
+                              second = rho_bodies_outline_track(look, younger),
                               joint = rho_bodies_join_outlines(tracker, older, younger, &first,
                                                                &second);
     /* two bodies fit the same plots better than one: that is no evidence, unless they are known */
@@ -235,13 +235,31 @@ static void end_duplicate(struct step *step, unsigned older, unsigned younger, i
     rho_life_end(step, &tracks[younger]);
 }
 
+/*
+ * True of a track that is known to be another target than all others, and whose plots no other
+ * contends for: it is not asked again.
+ */
+static int is_surely_apart(const struct rho_tracker *tracker, unsigned row, int is_contested)
+{
+    return !is_contested && tracker->bodies.of[row].two_nat >= TWO_MOST_NAT &&
+           tracker->tracks[row].hits > MISSED_MOST;
+}
+
 void rho_bodies_end_duplicates(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
+    const struct rho_groups *groups = &tracker->bodies.groups;
+    uint8_t is_contested[RHO_BODY_TRACKS] = {0};
+    for (uint32_t i = 0; i < step->look.num_gated; i++) {
+        if (groups->contender[i] != RHO_NO_ROW) {
+            is_contested[groups->contender[i]] = is_contested[groups->owner[i]] = 1;
+        }
+    }
     for (unsigned row = tracker->num_tracks; step->look.teaches && row-- > 0;) {
         struct rho_body_filter *body = &tracker->bodies.of[row];
         int is_seen = 0;
-        if (!rho_bodies_may_own(&step->look, row)) {
+        if (!rho_bodies_may_own(&step->look, row) ||
+            is_surely_apart(tracker, row, is_contested[row])) {
             continue;
         }
         const unsigned older = nearest_older(step, row, &is_seen);

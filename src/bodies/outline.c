@@ -23,16 +23,18 @@ float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2
            rho_sqrt(velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1]);
 }
 
-struct body_outline rho_bodies_outline_track(const struct rho_tracker *tracker, unsigned row)
+struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsigned row)
 {
-    const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
-    const struct rho_body_filter *body = &tracker->bodies.of[row];
+    const struct rho_track *track = &look->tracker->tracks[row];
+    const struct rho_kalman *kalman = &track->kalman;
+    const struct rho_body_filter *body = &look->tracker->bodies.of[row];
     const float *state = kalman->state, *p = kalman->covariance;
     const float place_m2[3] = {p[RHO_AT(RHO_X, RHO_X)], p[RHO_AT(RHO_X, RHO_Y)],
                                p[RHO_AT(RHO_Y, RHO_Y)]};
     struct body_outline outline = {
         .place_m = {state[RHO_X], state[RHO_Y]},
         .velocity_mps = {state[RHO_VX], state[RHO_VY], state[RHO_VZ]},
+        .ahead_s = rho_seconds_between(track->time_us, look->time_us),
         .velocity_m2ps2 = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
                            p[RHO_AT(RHO_VY, RHO_VY)]},
         .cos_heading = body->cos_heading,
@@ -84,34 +86,79 @@ struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, 
     return joint;
 }
 
+void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline *outline,
+                         const struct rho_plot *plot, struct outline_fit *fit)
+{
+    const struct rho_sensor *sensor = look->sensor;
+    const float after_s = outline->ahead_s + (float)plot->offset_us * 1e-6f;
+    const float c = outline->cos_heading, s = outline->sin_heading;
+    const float *velocity_mps = outline->velocity_mps;
+    fit->dx_m = plot->x_m - outline->place_m[0] - after_s * velocity_mps[0];
+    fit->dy_m = plot->y_m - outline->place_m[1] - after_s * velocity_mps[1];
+    fit->along_m = c * fit->dx_m + s * fit->dy_m;
+    fit->across_m = c * fit->dy_m - s * fit->dx_m;
+    /* the noise of the place, without its height, in the axes of the body */
+    const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
+    const float x_m = plot->x_m - (sensor ? sensor->x_m : 0.0f),
+                y_m = plot->y_m - (sensor ? sensor->y_m : 0.0f);
+    const float ground_m = rho_sqrt(x_m * x_m + y_m * y_m);
+    const int is_far = ground_m >= RHO_RANGE_LEAST_M;
+    float range_m = ground_m, per_m = is_far ? 1.0f / ground_m : 0.0f;
+    float sigma_m = factors.range * plot->sigma_range_m,
+          side_m = factors.cross * plot->sigma_cross_m;
+    sigma_m = is_far ? sigma_m : rho_larger(sigma_m, side_m);
+    side_m = is_far ? side_m : sigma_m;
+    const float ahead = is_far ? per_m * (c * x_m + s * y_m) : 1.0f,
+                aside = per_m * (c * y_m - s * x_m);
+    const float range_m2 = sigma_m * sigma_m, side_m2 = side_m * side_m;
+    fit->noise_m2[0] = range_m2 * ahead * ahead + side_m2 * aside * aside;
+    fit->noise_m2[1] = (range_m2 - side_m2) * ahead * aside;
+    fit->noise_m2[2] = range_m2 * aside * aside + side_m2 * ahead * ahead;
+    /* the range rate, with its height */
+    float climb_mps = 0.0f;
+    if (look->scan->measures & RHO_MEASURES_Z) {
+        const float z_m = plot->z_m - (sensor ? sensor->z_m : 0.0f);
+        range_m = rho_sqrt(ground_m * ground_m + z_m * z_m);
+        per_m = range_m >= RHO_RANGE_LEAST_M ? 1.0f / range_m : 0.0f;
+        climb_mps = per_m * z_m * velocity_mps[2];
+    }
+    fit->has_rate =
+        (look->scan->measures & RHO_MEASURES_RANGE_RATE) && range_m >= RHO_RANGE_LEAST_M;
+    fit->sight_line[0] = per_m * x_m;
+    fit->sight_line[1] = per_m * y_m;
+    fit->rate_mps = rho_measurement_innovation_mps(
+        sensor, plot->range_rate_mps,
+        fit->sight_line[0] * velocity_mps[0] + fit->sight_line[1] * velocity_mps[1] + climb_mps);
+    const float turned_mps =
+        per_m * plot->sigma_cross_m *
+        (fit->sight_line[0] * velocity_mps[1] - fit->sight_line[1] * velocity_mps[0]);
+    fit->line_turn_m2ps2 = turned_mps * turned_mps;
+    fit->rate_m2ps2 =
+        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + fit->line_turn_m2ps2;
+}
+
 void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,
                          const struct rho_plot *plot, struct outline_fit *fit)
 {
-    const float after_s = (float)plot->offset_us * 1e-6f;
-    const float c = outline->cos_heading, s = outline->sin_heading;
-    const float dx_m = plot->x_m - outline->place_m[0] - after_s * outline->velocity_mps[0],
-                dy_m = plot->y_m - outline->place_m[1] - after_s * outline->velocity_mps[1];
-    fit->along_m = c * dx_m + s * dy_m;
-    fit->across_m = c * dy_m - s * dx_m;
-    rho_bodies_noise_axes(look, c, s, plot, fit->noise_m2);
+    rho_bodies_see_plot(look, outline, plot, fit);
     for (unsigned i = 0; i < 3; i++) {
         fit->noise_m2[i] += outline->error_m2[i];
     }
     fit->noise_m2[2] += outline->across_m2;
-    fit->has_rate =
-        rho_bodies_rate_residual(look, look->scan, outline->velocity_mps, plot, &fit->rate);
-    fit->apart_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-    const float *line = fit->rate.sight_line;
-    fit->track_m2ps2 = fit->has_rate ? line[0] * line[0] * outline->velocity_m2ps2[0] +
-                                           2.0f * line[0] * line[1] * outline->velocity_m2ps2[1] +
-                                           line[1] * line[1] * outline->velocity_m2ps2[2]
-                                     : 0.0f;
 }
 
-float rho_bodies_rate_variance(const struct outline_fit *fit, float turn_radps)
+float rho_bodies_sight_variance(const struct body_outline *outline, const struct outline_fit *fit)
 {
-    const float turn_mps = turn_radps * fit->apart_m;
-    return fit->track_m2ps2 + fit->rate.variance_m2ps2 + turn_mps * turn_mps;
+    const float *line = fit->sight_line, *p = outline->velocity_m2ps2;
+    return line[0] * line[0] * p[0] + 2.0f * line[0] * line[1] * p[1] + line[1] * line[1] * p[2];
+}
+
+float rho_bodies_rate_variance(const struct body_outline *outline, const struct outline_fit *fit,
+                               float turn_radps)
+{
+    const float apart_m2 = fit->dx_m * fit->dx_m + fit->dy_m * fit->dy_m;
+    return rho_bodies_sight_variance(outline, fit) + fit->rate_m2ps2 +
+           turn_radps * turn_radps * apart_m2;
 }
 
 /* The normal distribution, within 0.01. */
@@ -135,8 +182,8 @@ float rho_bodies_density(const struct rho_look *look, const struct body_outline 
                         half_m;
     float square = fit.across_m * fit.across_m / fit.noise_m2[2], size = fit.noise_m2[2];
     if (fit.has_rate) {
-        const float variance = rho_bodies_rate_variance(&fit, TURN_USUAL_RADPS);
-        square += fit.rate.mps * fit.rate.mps / variance;
+        const float variance = rho_bodies_rate_variance(outline, &fit, TURN_USUAL_RADPS);
+        square += fit.rate_mps * fit.rate_mps / variance;
         size *= variance;
     }
     return outline->plots * (along + FAR_SHARE / half_m) *

@@ -49,10 +49,10 @@ static int may_be_one_target(const struct rho_look *look, struct rho_work *work,
 }
 
 /* The outline of a track's body for gates: its length and heading may yet be other ones. */
-static struct body_outline widened_outline(const struct rho_tracker *tracker, unsigned row)
+static struct body_outline widened_outline(const struct rho_look *look, unsigned row)
 {
-    const struct rho_body_filter *body = &tracker->bodies.of[row];
-    struct body_outline outline = rho_bodies_outline_track(tracker, row);
+    const struct rho_body_filter *body = &look->tracker->bodies.of[row];
+    struct body_outline outline = rho_bodies_outline_track(look, row);
     /* the square of a half length is 3 times the variance of a place on the body */
     const float turned =
         body->has_heading ? 3.0f * body->heading_sigma_rad * body->heading_sigma_rad : 0.0f;
@@ -87,7 +87,7 @@ static int body_explains_plot(const struct rho_look *look, const struct body_out
     const float along_m2 = outline->along_m2 + fit.noise_m2[0], across_m2 = fit.noise_m2[2];
     const float far = fit.along_m * fit.along_m / along_m2,
                 wide = fit.across_m * fit.across_m / across_m2;
-    *misfit = far + wide + rho_log(along_m2) + rho_log(across_m2);
+    *misfit = far + wide + rho_log(along_m2 * across_m2);
     if (!(far <= BODY_GATE_SIGMAS * BODY_GATE_SIGMAS &&
           wide <= BODY_GATE_SIGMAS * BODY_GATE_SIGMAS)) {
         return 0;
@@ -96,11 +96,12 @@ static int body_explains_plot(const struct rho_look *look, const struct body_out
         return 1;
     }
     const float slack_mps =
-        BODY_ERROR_SIGMAS * (rho_sqrt(fit.track_m2ps2) + rho_sqrt(fit.rate.variance_m2ps2)) +
-        TURN_RADPS * fit.apart_m;
-    const float variance = rho_bodies_rate_variance(&fit, TURN_RADPS);
-    *misfit += fit.rate.mps * fit.rate.mps / variance + rho_log(variance);
-    return fit.rate.mps <= slack_mps && fit.rate.mps >= -slack_mps;
+        BODY_ERROR_SIGMAS *
+            (rho_sqrt(rho_bodies_sight_variance(outline, &fit)) + rho_sqrt(fit.rate_m2ps2)) +
+        TURN_RADPS * rho_sqrt(fit.dx_m * fit.dx_m + fit.dy_m * fit.dy_m);
+    const float variance = rho_bodies_rate_variance(outline, &fit, TURN_RADPS);
+    *misfit += fit.rate_mps * fit.rate_mps / variance + rho_log(variance);
+    return rho_magnitude(fit.rate_mps) <= slack_mps;
 }
 
 /* Gives each plot to the track whose body explains it best. */
@@ -113,7 +114,7 @@ static void find_owners(struct step *step)
         if (!rho_bodies_may_own(look, row)) {
             continue;
         }
-        const struct body_outline outline = widened_outline(step->tracker, row);
+        const struct body_outline outline = widened_outline(look, row);
         const float *place_m = outline.place_m, *velocity_mps = outline.velocity_mps;
         /* half side of a square that holds the gate in any direction, at any plot's time */
         const float moved_m = rho_bodies_moved_m(look, velocity_mps);

@@ -11,6 +11,11 @@
  */
 #define SETTLED_LOOKS 30.0f
 /*
+ * Plots after which a body is settled: with fewer, its first heading and velocity may be wrong.
+ * Half: bodies seen from the side first are split. Twice: two targets have one track for longer.
+ */
+#define SETTLED_PLOTS 100.0f
+/*
  * Memory of the evidence on a body, in looks: sums fade by 1 / DOUBT_MEMORY each look. Half: what
  * needs SETTLED_LOOKS is hardly reached. Twice: old evidence outlasts the cause.
  */
@@ -151,6 +156,6 @@
  */
 #define CONTESTED_MISFIT 6.0f
 /* Units of work: a plot compared with a body; with three bodies; with a plot; passed over. */
-enum { TEST_UNITS = 6, EVIDENCE_UNITS = 18, PAIR_UNITS = 2, PASS_UNITS = 1 };
+enum { TEST_UNITS = 4, EVIDENCE_UNITS = 12, PAIR_UNITS = 2, PASS_UNITS = 1 };
 
 #endif

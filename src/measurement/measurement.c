@@ -110,7 +110,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     const float half_azimuth = 0.5f * variance_azimuth, half_elevation = 0.5f * variance_elevation;
     const float azimuth_gain = 1.0f + half_azimuth * (1.0f + 0.5f * half_azimuth);
     const float elevation_gain = 1.0f + half_elevation * (1.0f + 0.5f * half_elevation);
-    const float level_m = range_m * elevation_gain * rho_cos(elevation_rad);
+    const float level_m = range_m * elevation_gain * (has_z ? rho_cos(elevation_rad) : 1.0f);
     const float ground_m = level_m * azimuth_gain;
     const float spread_m =
         0.70710678f * root_sum_squares(level_m * variance_azimuth, range_m * variance_elevation);

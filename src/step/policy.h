@@ -94,11 +94,6 @@
  */
 #define SPLIT_NAT 6.0f
 /*
- * Plots of a body before its width counts: with fewer, its first heading may still be wrong. Half:
- * bodies seen from the side first are split. Twice: two targets have one track for longer.
- */
-#define SETTLED_PLOTS 100.0f
-/*
  * Least distance of the outermost plots of two targets, over the largest length or width of one.
  * Half: one body's plots are divided. Twice: a split waits until the targets are a body apart.
  */

@@ -21,11 +21,11 @@ struct body_side {
 };
 
 /* The coordinate of a plot that tells the sides apart: along, across or range-rate residual. */
-static float separating_value(enum rho_body_split why, const struct body_plot *at)
+static float separating_value(enum rho_body_split why, const struct outline_fit *at)
 {
     return why == RHO_BODY_TOO_LONG   ? at->along_m
            : why == RHO_BODY_TOO_WIDE ? at->across_m
-                                      : at->rate.mps;
+                                      : at->rate_mps;
 }
 
 /*
@@ -38,13 +38,14 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
     const float longest_m = look->tracker->bodies.length_max_m;
     const unsigned group = groups->first[look->tracker->tracks[row].plot];
     float least = 1e30f, most = -1e30f, rate_m2ps2 = 0.0f;
-    struct body_plot at;
+    const struct body_outline outline = rho_bodies_outline_track(look, row);
+    struct outline_fit at;
     for (unsigned i = rho_bodies_next_own_plot(groups, group); i != RHO_NO_ROW;
          i = rho_bodies_next_own_plot(groups, groups->next[i])) {
-        (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
+        rho_bodies_see_plot(look, &outline, &scan->plots[i], &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
-        rate_m2ps2 = rho_larger(rate_m2ps2, at.rate.variance_m2ps2);
+        rate_m2ps2 = rho_larger(rate_m2ps2, at.rate_m2ps2);
     }
     const float middle = 0.5f * (least + most);
     const float parted = why == RHO_BODY_TOO_LONG   ? PARTED_SHARE * longest_m
@@ -55,13 +56,13 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
     }
     for (unsigned i = rho_bodies_next_own_plot(groups, group); i != RHO_NO_ROW;
          i = rho_bodies_next_own_plot(groups, groups->next[i])) {
-        (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
+        rho_bodies_see_plot(look, &outline, &scan->plots[i], &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;
         side->y_m += at.dy_m;
-        side->vx_mps += at.rate.sight_line[0] * at.rate.mps;
-        side->vy_mps += at.rate.sight_line[1] * at.rate.mps;
+        side->vx_mps += at.sight_line[0] * at.rate_mps;
+        side->vy_mps += at.sight_line[1] * at.rate_mps;
     }
     for (int i = 0; i < 2 && sides[i].plots > 0; i++) {
         const float share = 1.0f / (float)sides[i].plots;
@@ -145,7 +146,7 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
         }
         rho_bodies_add_doubt(tracker, &step->look, scan, row);
         enum rho_body_split why = rho_bodies_split_reason(tracker, row);
-        if (body->plots >= SETTLED_PLOTS && 12.0f * body->across_m2 > widest_m * widest_m) {
+        if (rho_bodies_is_settled(tracker, row) && 12.0f * body->across_m2 > widest_m * widest_m) {
             rho_body_shape(body, &shape);
             if (shape.width_m - SURE_SIGMAS * shape.sigma_width_m > widest_m) {
                 why = RHO_BODY_TOO_WIDE;

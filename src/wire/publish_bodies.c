@@ -8,13 +8,12 @@
 uint16_t rho_publish_num_body_parts(const struct rho_tracker *tracker,
                                     const struct rho_report *report)
 {
-    struct rho_body body;
     unsigned count = 0;
     if (!RHO_BODIES || !tracker || !report || !(tracker->bodies.length_max_m > 0.0f)) {
         return 0;
     }
     for (unsigned i = 0; i < report->num_tracks; i++) {
-        count += !report->tracks[i].is_in_doubt && rho_tracker_body_of(tracker, i, &body) ? 1 : 0;
+        count += !report->tracks[i].is_in_doubt && rho_tracker_has_body(tracker, i) ? 1 : 0;
     }
     return (uint16_t)rho_num_parts(count, PART_BODIES);
 }
@@ -41,8 +40,8 @@ enum rho_status rho_publish_bodies(const struct rho_tracker *tracker,
     unsigned place = 0;
     for (unsigned i = 0; i < report->num_tracks && status == RHO_OK; i++) {
         const struct rho_track_report *track = &report->tracks[i];
-        if (track->is_in_doubt || !rho_tracker_body_of(tracker, i, &body) ||
-            place++ / PART_BODIES != part) {
+        if (track->is_in_doubt || !rho_tracker_has_body(tracker, i) ||
+            place++ / PART_BODIES != part || !rho_tracker_body_of(tracker, i, &body)) {
             continue;
         }
         /* The track's position stands for the body's centre: plots of it do not tell it apart. */

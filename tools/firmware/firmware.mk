@@ -40,11 +40,11 @@ replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.
 # --- images: build/firmware/CORE/IMAGE.elf ---------------------------------------------------
 
 # The configurations of nodes/, and whose processor is to take them.
-node_names_m4 := en_route marine smallest paper traffic
+node_names_m4 := en_route marine people smallest paper traffic
 node_names_m7 := traffic
 worst_names_m4 := full finders $(filter-out paper,$(node_names_m4))
 # Those that play records, too.
-replay_names := smallest paper
+replay_names := smallest paper people traffic
 replays := $(replay_names:%=$(firmware)/m4/nodes/%-replay.elf)
 node_images := $(foreach core,m4 m7,$(node_names_$(core):%=$(firmware)/$(core)/nodes/%.elf))
 worst_images := $(worst_names_m4:%=$(firmware)/m4/worst/%.elf)

@@ -6,7 +6,9 @@
  */
 
 /* Plots and polar plots, no bearings of passive sensors. */
+#ifndef RHO_SCAN_KINDS
 #define RHO_SCAN_KINDS 3
+#endif
 
 /* One scan is assembled at a time: scans of one radar do not interleave. */
 #define RHO_MAX_OPEN_SCANS 1

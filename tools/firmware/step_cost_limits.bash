@@ -5,7 +5,7 @@
 # (most): a quarter of the scan interval at 168 MHz; 4 million for `smallest`; `full` is taken with
 # 4 s a scan; `traffic` has 0.56 of its interval, which is less than a quarter of it at 480 MHz
 # (M7). Of `finders` a step is a second, of four looks with a search for tracks in bearings.
-shipped='full en_route marine traffic smallest finders'
+shipped='full en_route marine traffic people smallest finders'
 step_cost_limits_of() {
     a=5000000 b=90
     case $1 in
@@ -13,6 +13,7 @@ step_cost_limits_of() {
     en_route) most=420000000 ;;
     marine) most=105000000 ;;
     traffic) a=3500000 most=4700000 ;;
+    people) a=2200000 most=4200000 ;;
     smallest) a=2200000 most=4000000 ;;
     finders) a=15000000 b=180 most=42000000 ;;
     *) return 1 ;;
