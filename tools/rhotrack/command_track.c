@@ -25,6 +25,7 @@
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/pipeline_show.h"
+#include "pipeline/plots_beside_tracks.h"
 #include "settings/initiation_methods.h"
 
 struct tracking {
@@ -33,6 +34,7 @@ struct tracking {
     struct clutter_map_file clutter;
     struct zone_events_output zones;
     struct no_tracks seen;
+    struct plots_beside_tracks beside;
     int64_t sum_us, max_us;
 };
 
@@ -113,6 +115,10 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
                                  struct tracks_output *tracks)
 {
     step_and_time_input(tracking, input);
+    if (input->scan) {
+        plots_beside_tracks_add_scan(&tracking->beside, input->scan,
+                                     &tracking->pipeline.node->report);
+    }
     if (tracks) {
         tracks_output_write_report(tracks, &tracking->pipeline.node->report);
     }
@@ -427,7 +433,7 @@ static double count_known_echoes(const struct rho_clutter_map *map)
 
 static void print_run_json(const struct tracking *tracking, const struct merged_inputs *inputs,
                            const struct merged_inputs_counts *counts,
-                           const struct parameters *parameters)
+                           const struct parameters *parameters, const struct found_body *body)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.node->tracker.counters;
     cJSON *object = cJSON_CreateObject();
@@ -457,6 +463,9 @@ static void print_run_json(const struct tracking *tracking, const struct merged_
     if (learned_report_num_walls(pipeline_learning(&tracking->pipeline)) > 0) {
         cJSON_AddItemToObject(object, "learned_reflectors",
                               learned_report_walls_json(pipeline_learning(&tracking->pipeline)));
+    }
+    if (body->body_max_m > 0.0) {
+        cJSON_AddItemToObject(object, "found_body", found_body_json(body));
     }
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
     if (pipeline_zones(&tracking->pipeline)) {
@@ -523,7 +532,11 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
                                          const struct command_line *line)
 {
     struct merged_inputs_counts counts = merged_inputs_counts(inputs);
+    struct found_body body = {0.0, 0.0, 0.0};
 
+    if (!(line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0)) {
+        body = plots_beside_tracks_find_body(&tracking->beside);
+    }
     print_summary(tracking, &counts, &line->parameters);
     hidden_turns_print(shortest_interval_us(&tracking->pipeline.node->tracker), 2,
                        &line->parameters, stderr);
@@ -531,11 +544,15 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
         no_tracks_reason_print(&tracking->seen, &tracking->pipeline.node->tracker,
                                &line->parameters, stderr);
     }
+    if (body.body_max_m > 0.0) {
+        fprintf(stderr, "rhotrack: %.1f plots beside each track within %.3g m: body_max_m=%g?\n",
+                body.plots, body.distance_m, body.body_max_m);
+    }
     if (pipeline_zones(&tracking->pipeline)) {
         zones_print_counts(pipeline_zones(&tracking->pipeline));
     }
     if (line->json) {
-        print_run_json(tracking, inputs, &counts, &line->parameters);
+        print_run_json(tracking, inputs, &counts, &line->parameters, &body);
     }
 }
 
