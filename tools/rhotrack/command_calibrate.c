@@ -11,8 +11,10 @@
 #include "io/scans/merged_inputs.h"
 #include "registration/register_data.h"
 
+/* Reads the scans; where beside is not NULL, tracks them as `track` does for it. */
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
-                                             struct register_data *data)
+                                             struct register_data *data, struct pipeline *pipeline,
+                                             struct plots_beside_tracks *beside)
 {
     struct merged_inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
                                                       &line->parameters, line->keep_going);
@@ -22,6 +24,7 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
     if (merged_inputs_have_bearings(inputs)) {
         fail(EXIT_USAGE, "calibrate takes plots, not bearings");
     }
+    pipeline_open(pipeline, &line->parameters);
     for (struct input input = merged_inputs_next(inputs); input.scan;
          input = merged_inputs_next(inputs)) {
         struct rho_sensor sensor;
@@ -32,6 +35,11 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
             parameters_sensor_or_default(&line->parameters, input.scan->sensor_id, &sensor);
         }
         register_add_unchecked_scan(data, input.scan, &sensor);
+        if (beside) {
+            must_set_sensor(&pipeline->node->tracker, &sensor);
+            pipeline_step(pipeline, input.scan);
+            plots_beside_tracks_add_scan(beside, input.scan, &pipeline->node->report);
+        }
         progress_show_by_bytes(&progress, ++done, merged_inputs_bytes_read(inputs),
                                merged_inputs_total_bytes(inputs));
     }
@@ -62,17 +70,27 @@ int command_calibrate(struct command_line *line)
 {
     struct register_data *data = register_start(&line->parameters);
     struct pipeline pipeline = pipeline_allocate();
+    struct plots_beside_tracks beside = {.looks = 0};
     struct calibrate_result result;
+    struct found_body body = {0.0, 0.0, 0.0};
+    bool is_body_told;
     uint64_t rows_skipped;
 
     command_line_check_ini_output(line, "calibrate");
     pipeline_options_to_parameters(&line->parameters,
                                    &(struct pipeline_options){.gate = line->gate});
-    rows_skipped = read_scans_counting_bad_rows(line, data);
+    is_body_told = line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0;
+    rows_skipped =
+        read_scans_counting_bad_rows(line, data, &pipeline, is_body_told ? NULL : &beside);
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "calibrate: the input has no plots");
     }
+    if (!is_body_told) {
+        body = plots_beside_tracks_find_body(&beside);
+        line->parameters.value[PARAMETER_BODY_MAX_M] = body.body_max_m;
+    }
     result = calibrate(data, &pipeline);
+    result.body = body;
     print_calibration(line, &result, rows_skipped);
     if (!calibrate_knows_noise_or_pd(&result)) {
         fail(EXIT_RUNTIME, "calibrate: too few tracks to estimate noise "

@@ -215,6 +215,19 @@ static bool are_enough_segments(const struct calibrate_segments *segments)
            segments->num_segments > segments->num_unfitted;
 }
 
+/* Sets the values of the noise, still unknown, to the means of the stated ones. */
+static void take_stated_noise(const struct radar_data *radar, struct calibrate_radar *out)
+{
+    const double share = 1.0 / (double)radar->num_plots;
+
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        const struct radar_plot *plot = &radar->plots[i];
+
+        out->figures[CALIBRATE_RANGE].value += share * plot->sigma_range_m;
+        out->figures[CALIBRATE_AZIMUTH].value += share * plot->sigma_cross_m / plot->range_m;
+    }
+}
+
 /*
  * Estimates the noise along and across the line of sight: tracks are found again with each estimate
  * until it converges. Returns the segments of the last tracks.
@@ -224,9 +237,13 @@ static struct calibrate_segments estimate_noise(struct register_data *data, size
                                                 struct pipeline *pipeline)
 {
     struct calibrate_figure *noise = out->figures;
-    struct calibrate_segments segments =
-        track_with_best_sigma(data, radar_number, out->is_isotropic, pipeline);
+    struct calibrate_segments segments;
 
+    if (out->has_bodies) {
+        take_stated_noise(&data->radars[radar_number], out);
+        return track_and_cut_segments(data, radar_number, out->is_isotropic, pipeline);
+    }
+    segments = track_with_best_sigma(data, radar_number, out->is_isotropic, pipeline);
     for (int round = 0; round < ROUNDS_MAX && segments.num_segments >= SEGMENTS_MIN; round++) {
         const struct calibrate_figure before[2] = {noise[0], noise[1]};
 
@@ -243,7 +260,7 @@ static struct calibrate_segments estimate_noise(struct register_data *data, size
         segments = track_and_cut_segments(data, radar_number, out->is_isotropic, pipeline);
     }
     if (!are_enough_segments(&segments)) {
-        noise[0].is_known = noise[1].is_known = false;
+        noise[0] = noise[1] = (struct calibrate_figure){.is_known = false};
     }
     return segments;
 }
@@ -297,18 +314,32 @@ static struct calibrate_figure estimate_turn_time(const struct turns *turns)
     return figure;
 }
 
-static struct calibrate_figure estimate_clutter(const struct register_data *data,
-                                                size_t radar_number, const struct turns *turns)
+static bool has_bodies(const struct register_data *data)
 {
-    const double count = (double)turns->count;
-    struct calibrate_figure figure = {.is_known = turns->count >= TURNS_MIN};
-    double mean = 0.0, square = 0.0, tracked = 0.0;
+    return data->parameters->value[PARAMETER_BODY_MAX_M] > 0.0;
+}
+
+/* Plots of confirmed tracks; of bodies all plots that tracks claim, as a track has one a scan. */
+static double count_tracked_plots(const struct register_data *data, size_t radar_number)
+{
+    double tracked = 0.0;
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         if (data->tracks[i].radar == radar_number) {
             tracked += (double)(data->tracks[i].count + data->tracks[i].earlier);
         }
     }
+    return has_bodies(data) ? (double)data->radars[radar_number].claimed : tracked;
+}
+
+static struct calibrate_figure estimate_clutter(const struct register_data *data,
+                                                size_t radar_number, const struct turns *turns)
+{
+    const double count = (double)turns->count;
+    struct calibrate_figure figure = {.is_known = turns->count >= TURNS_MIN};
+    const double tracked = count_tracked_plots(data, radar_number);
+    double mean = 0.0, square = 0.0;
+
     for (size_t i = 0; i < turns->count; i++) {
         mean += turns->plots[i] / count;
         square += turns->plots[i] * turns->plots[i] / count;
@@ -458,7 +489,9 @@ static void estimate_radar(struct register_data *data, size_t radar_number,
         stated[2 * i + 1] = radar->plots[i].sigma_cross_m;
     }
     *out = (struct calibrate_radar){.sensor_id = radar->sensor.sensor_id,
+                                    .has_bodies = has_bodies(data),
                                     .is_isotropic = has_isotropic_plots(radar),
+                                    .innovations = NAN,
                                     .scans = radar->num_scans,
                                     .plots = radar->num_plots};
     segments = estimate_noise(data, radar_number, out, pipeline);
@@ -473,7 +506,9 @@ static void estimate_radar(struct register_data *data, size_t radar_number,
     out->figures[CALIBRATE_PD] = pd_by_counted_looks(&pipeline->node->tracker.sensors[0]);
     find_speed_extremes(&segments, &out->figures[CALIBRATE_FASTEST],
                         &out->figures[CALIBRATE_SLOWEST]);
-    find_innovations(data, radar_number, out, stated);
+    if (!out->has_bodies) {
+        find_innovations(data, radar_number, out, stated);
+    }
     calibrate_segments_free(&segments);
     free(turns.end_s);
     free(turns.plots);

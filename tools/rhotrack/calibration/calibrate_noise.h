@@ -16,6 +16,7 @@
 #include <stdint.h>
 
 #include "pipeline/pipeline.h"
+#include "pipeline/plots_beside_tracks.h"
 #include "settings/parameters.h"
 
 enum calibrate_kind {
@@ -36,9 +37,11 @@ struct calibrate_figure {
 
 struct calibrate_radar {
     int32_t sensor_id;
+    bool has_bodies;   /* targets give several plots: their extent hides the noise */
     bool is_isotropic; /* plots are Cartesian, with equal sigmas on all axes */
     size_t scans, turns, plots, tracks;
     size_t segments, segments_left_out; /* left out: segments that fit no parabola */
+    /* with bodies the noise has the stated value, and is not known */
     struct calibrate_figure figures[NUM_CALIBRATE_KINDS];
     /*
      * mean normalised innovation squared of tracks' plots, extrapolated from the four plots before
@@ -52,6 +55,7 @@ struct calibrate_radar {
 struct calibrate_result {
     size_t num_radars;
     struct calibrate_radar *radars; /* in the order of sensor_id */
+    struct found_body body;         /* as found; body_max_m is 0 also where it was told */
 };
 
 struct register_data;

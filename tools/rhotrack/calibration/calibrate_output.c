@@ -40,6 +40,13 @@ static bool has_radar_figure(const struct calibrate_radar *of, int kind)
     return !(of->is_isotropic && kind == CALIBRATE_AZIMUTH);
 }
 
+static const char *reason_of_unknown(const struct calibrate_radar *of, int kind)
+{
+    return of->has_bodies && kind <= CALIBRATE_AZIMUTH
+               ? "the extent of targets that give several plots hides it"
+               : figure_kinds[kind].why_not;
+}
+
 bool calibrate_knows_noise_or_pd(const struct calibrate_result *result)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
@@ -86,11 +93,15 @@ void calibrate_print(const struct calibrate_result *result, FILE *out)
         for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
             if (!of->figures[kind].is_known && has_radar_figure(of, kind)) {
                 fprintf(out, "radar %d, %s: not known: %s\n", (int)of->sensor_id,
-                        figure_title(of, kind), figure_kinds[kind].why_not);
+                        figure_title(of, kind), reason_of_unknown(of, kind));
             }
         }
     }
     text_table_free(&table);
+    if (result->body.body_max_m > 0.0) {
+        fprintf(out, "body_max_m %g: %.1f plots beside each track within %.3g m\n",
+                result->body.body_max_m, result->body.plots, result->body.distance_m);
+    }
 }
 
 void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_skipped)
@@ -121,6 +132,9 @@ void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_s
         json_add_number_or_null(radar, "innovations", of->innovations);
         cJSON_AddNumberToObject(radar, "num_innovations", (double)of->num_innovations);
         cJSON_AddItemToArray(radars, radar);
+    }
+    if (result->body.body_max_m > 0.0) {
+        cJSON_AddItemToObject(object, "found_body", found_body_json(&result->body));
     }
     cJSON_AddNumberToObject(object, "rows_skipped", (double)rows_skipped);
     json_print_and_delete(object);
@@ -159,6 +173,8 @@ static void write_figure(FILE *out, const struct calibrate_figure *figure, const
     if (figure->is_known) {
         fprintf(out, "# sigma %.2g\n%s%s = %.6g\n", figure->sigma, line_prefix, name,
                 figure->value);
+    } else if (figure->value > 0.0) {
+        fprintf(out, "# as stated\n%s%s = %.4g\n", line_prefix, name, figure->value);
     } else {
         fprintf(out, "# %s: not known\n", name);
     }
@@ -190,6 +206,10 @@ void calibrate_write_ini(const struct calibrate_result *result, const char *path
 
     fprintf(output.file, "# found by rhotrack calibrate; each with its sigma\n");
     write_speed_limits(result, output.file);
+    if (result->body.body_max_m > 0.0) {
+        fprintf(output.file, "# %.1f plots beside each track within %.3g m\nbody_max_m = %g\n",
+                result->body.plots, result->body.distance_m, result->body.body_max_m);
+    }
     for (size_t i = 0; i < result->num_radars; i++) {
         write_radar_section(&result->radars[i], output.file);
     }

@@ -41,6 +41,7 @@ struct radar_data {
     struct radar_plot *plots;
     /* remaining biases after the configured ones, as estimated so far */
     double bias[NUM_REGISTER_KINDS];
+    size_t claimed; /* plots that tracks claimed in the last run of the tracker */
 };
 
 struct register_data {

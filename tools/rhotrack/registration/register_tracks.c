@@ -154,6 +154,7 @@ void register_track_one_radar(struct register_data *data, size_t radar_number,
     if (radar->num_scans > 0) {
         qsort(radar->scans, radar->num_scans, sizeof *radar->scans, by_time);
     }
+    radar->claimed = 0;
     pipeline_open(pipeline, data->parameters);
     must_succeed(rho_tracker_set_sensor(&pipeline->node->tracker, &radar->sensor), "sensor");
     for (size_t first = 0; first < radar->num_scans;) {
@@ -162,6 +163,7 @@ void register_track_one_radar(struct register_data *data, size_t radar_number,
 
         pipeline_step(pipeline, &turn);
         record_reported_tracks(&all, &pipeline->node->report, rows);
+        radar->claimed += pipeline->node->report.fates_total[RHO_FATE_CLAIMED];
         first = end;
     }
     store_confirmed_tracks(&all);
