@@ -13,6 +13,7 @@ lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
+import extended
 import extended_rivals as rivals
 from common import experiment
 from common import stonesoup_tracker
@@ -157,7 +158,7 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(of["centre"], np.sqrt((5 + 1) / 5) / 4)
 
     def test_a_target_that_stands_is_headed_as_it_came(self):
-        truth = rivals.with_kept_headings({
+        truth = extended.with_kept_headings({
             "target_id": np.array([0, 1, 0, 1]), "vx_mps": np.array([0.0, 5, 0, 0]),
             "vy_mps": np.array([-3.0, 0, 0, 0])})
         np.testing.assert_allclose(truth["vx_mps"], [0, 5, 0, 1e-3])

@@ -8,9 +8,9 @@ where the package is installed (`make bench-stonesoup`), to Stone Soup's tracker
 DBSCAN, as it has none of extended targets (parts/stonesoup_clusters.py).
 
 rhotrack is told what the scene tells: the longest body, speeds, errors. The others' settings were
-chosen for each kind of scene, on seed 1001. Tracks, identities, completeness and the centre's
-error are those of experiment extended. Switches: none of a target's tracks has the number of its
-last one. On none: tracks a scan that are on no target's body. Times are the processor's.
+chosen for each kind of scene, on seed 1001. Tracks, identities, switches, completeness and the
+centre's error are those of experiment extended. On none: tracks a scan that are on no target's
+body. Times are the processor's.
 """
 import dataclasses
 import time
@@ -84,19 +84,8 @@ def simulate(case, seed):
     """The run, with the truth's columns."""
     return simulate_scene.simulate(
         case.scene, seed, *case.sets,
-        also=lambda folder: with_kept_headings(extended.table(folder / "truth.csv")))
-
-
-def with_kept_headings(truth):
-    """A target that stands is headed as it came: it creeps."""
-    last = {}
-    for row, target in enumerate(truth["target_id"]):
-        velocity = np.array([truth["vx_mps"][row], truth["vy_mps"][row]])
-        if np.hypot(*velocity) > 0.1:
-            last[target] = velocity / np.hypot(*velocity)
-        elif target in last:
-            truth["vx_mps"][row], truth["vy_mps"][row] = 1e-3 * last[target]
-    return truth
+        also=lambda folder: extended.with_kept_headings(
+            extended.table(folder / "truth.csv")))
 
 
 def track_own(run):
@@ -140,23 +129,6 @@ def track(case, run, tracker):
     return {name: rows[name] for name in rows.dtype.names}, ms
 
 
-def switches_by_target(truth, tracks, pairs, length_m):
-    """How often a target of a length has no track of its last one's number, by target."""
-    ids, seen = truth["target_id"].astype(int), {}
-    for row, col, along, across in pairs:
-        if truth["length_m"][row] == length_m:
-            seen.setdefault((ids[row], truth["t_s"][row]), []).append(
-                (np.hypot(along, across), tracks["track_id"][col]))
-    last, count = {}, 0
-    for (target, _), found in sorted(seen.items()):
-        numbers = [number for _, number in found]
-        if target in last and last[target] not in numbers:
-            count += 1
-        if last.get(target) not in numbers:
-            last[target] = min(found)[1]
-    return count / len(np.unique(ids[truth["length_m"] == length_m]))
-
-
 def run_one(job):
     """Figures by length; those of the scene alone are in each."""
     number, tracker, seed = job
@@ -169,10 +141,7 @@ def run_one(job):
 def score(truth, tracks, settle_s, ms):
     tracks = {**tracks, "status": np.full(len(tracks["t_s"]), "confirmed")}
     figures = extended.score(truth, tracks, settle_s)
-    pairs, _ = extended.pairs_of(truth, tracks)
-    return {float(length): {**of,
-                            "switches": switches_by_target(truth, tracks, pairs, float(length)),
-                            "others": figures["others"], "scan_ms": ms}
+    return {float(length): {**of, "others": figures["others"], "scan_ms": ms}
             for length, of in figures.items() if length != "others"}
 
 

@@ -157,14 +157,15 @@ def as_rows(mean, covariance, coasts):
         [mean, np.stack([*lower, np.broadcast_to(coasts, mean.shape[:-1])], axis=-1)], axis=-1)
 
 
-def follow(plots, truth, sensors, candidates, v_max_mps, live_throughout=False):
+def follow(plots, truth, sensors, candidates, v_max_mps, live_throughout=False, noise=None):
     """Rows of tracks: times in microseconds, track numbers, targets, places for each candidate
     (candidates, rows, 2), and what else is known of tracks (candidates, rows, len(MORE)). Targets
-    that live throughout are told as such: three hits in any looks start a track, and it stays."""
+    that live throughout are told as such: three hits in any looks start a track, and it stays.
+    noise: covariances of the plots' places, where they are not the sensors'."""
     groups = [[c for c in candidates if len(c) == 1], [c for c in candidates if len(c) > 1]]
     filters = [Filters(group, len(truth.ids), v_max_mps / 2) for group in groups if group]
     places_in = [candidates.index(c) for group in groups for c in group]
-    noise = measurement_noise(plots, sensors)
+    noise = measurement_noise(plots, sensors) if noise is None else noise
     own = own_plots(plots, truth)
     n = len(truth.ids)
     looks = np.zeros((n, len(plots.scan_times_us) if live_throughout else LOOKS), dtype=bool)
