@@ -104,6 +104,11 @@
  */
 #define HEADING_SIGMAS 3.0f
 /*
+ * The same, by the larger sigma of both axes, for a heading less certain than the one before. Half:
+ * the bodies of targets that stop turn across the road. Twice: bodies that turn keep their heading.
+ */
+#define TURNED_SIGMAS 5.0f
+/*
  * Actual variance of velocities' directions, as a share of what filters that expect manoeuvres
  * state. Half: widths are too large, as wrong headings count as width. Twice: they are too small.
  */
