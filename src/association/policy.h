@@ -12,8 +12,8 @@
 
 /*
  * Largest loss of a hypothesis' weight at one update for a speed above the limit, nat,
- * hypotheses_scan.c: half of the span of weights that are kept. Half: a history that is too fast
- * lasts two more updates. Twice: one plot far off ends it at once.
+ * hypotheses_scan.c: of 17 that are kept. Half: a history that is too fast lasts two more updates.
+ * Twice: one plot far off ends it at once.
  */
 #define SPEED_LOSS_MAX_NAT 10.0f
 

@@ -79,9 +79,18 @@ enum rho_body_split {
     RHO_BODY_TOO_LONG,
     RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
-/* Adds this scan's plots of a track to the evidence that its body is two targets. */
+/* Sums over a look's plots of one track alone, which are 0 at first. */
+struct body_sums {
+    /* far: place along the line of sight; side: across it */
+    float n, far, side, rate, far2, cross, side2, rate2, rate_far, rate_side;
+    float side_noise_m2, rate_noise_m2ps2, line_turn_m2ps2;
+    float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
+};
+void rho_bodies_sum_plot(struct body_sums *sums, const struct rho_plot *plot,
+                         const struct outline_fit *at);
+/* Adds them to the evidence that the track's body is two targets. */
 void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
-                          const struct rho_scan *scan, unsigned row);
+                          const struct body_sums *of, unsigned row);
 /* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
 enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row);
 /* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */

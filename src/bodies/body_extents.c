@@ -82,6 +82,7 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         const struct rho_track *track = &tracker->tracks[row];
         struct rho_body_look seen = {0};
+        struct body_sums own = {0};
         if (track->plot < 0) {
             continue;
         }
@@ -99,9 +100,14 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
             seen.cross_m2 += at.along_m * at.across_m;
             seen.noise_along_m2 += at.noise_m2[0];
             seen.noise_across_m2 += at.noise_m2[2];
+            if (bodies->groups.contender[i] == RHO_NO_ROW &&
+                (at.has_rate || !(scan->measures & RHO_MEASURES_RANGE_RATE))) {
+                rho_bodies_sum_plot(&own, &scan->plots[i], &at);
+            }
         }
         body->plots_a_look += PLOTS_SHARE * ((float)seen.num_plots - body->plots_a_look);
         rho_body_add_plots(body, &seen);
+        rho_bodies_add_doubt(tracker, look, &own, row);
     }
 }
 

@@ -19,57 +19,35 @@ static float heading_tolerance_rad(const struct rho_body_filter *body)
     return STEADY_RAD + body->heading_sigma_rad;
 }
 
-/* Sums over a look's plots, of places along the line of sight (far), across it (side), rates. */
-struct look_sums {
-    float n, far, side, rate, far2, cross, side2, rate2, rate_far, rate_side;
-    float side_noise_m2, rate_noise_m2ps2, line_turn_m2ps2;
-    float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
-};
-
-static struct look_sums sum_look(const struct rho_look *look, const struct rho_scan *scan,
-                                 unsigned row)
+void rho_bodies_sum_plot(struct body_sums *sums, const struct rho_plot *plot,
+                         const struct outline_fit *at)
 {
-    const struct rho_bodies *bodies = &look->tracker->bodies;
-    struct look_sums sums = {.first_m = 1e9f, .last_m = -1e9f};
-    const struct rho_groups *groups = &bodies->groups;
-    const struct body_outline outline = rho_bodies_outline_track(look, row);
-    struct outline_fit at;
-    for (unsigned i =
-             rho_bodies_next_own_plot(groups, groups->first[look->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_bodies_next_own_plot(groups, groups->next[i])) {
-        const struct rho_plot *plot = &scan->plots[i];
-        rho_bodies_see_plot(look, &outline, plot, &at);
-        if (!at.has_rate && (scan->measures & RHO_MEASURES_RANGE_RATE)) {
-            continue; /* a plot at the sensor has no line of sight */
-        }
-        const float far_m = at.sight_line[0] * at.dx_m + at.sight_line[1] * at.dy_m,
-                    side_m = at.sight_line[0] * at.dy_m - at.sight_line[1] * at.dx_m;
-        sums.n += 1.0f;
-        sums.far += far_m;
-        sums.side += side_m;
-        sums.rate += at.rate_mps;
-        sums.far2 += far_m * far_m;
-        sums.cross += far_m * side_m;
-        sums.side2 += side_m * side_m;
-        sums.rate2 += at.rate_mps * at.rate_mps;
-        sums.rate_far += at.rate_mps * far_m;
-        sums.rate_side += at.rate_mps * side_m;
-        sums.side_noise_m2 += plot->sigma_cross_m * plot->sigma_cross_m;
-        sums.line_turn_m2ps2 += at.line_turn_m2ps2;
-        sums.rate_noise_m2ps2 += plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
-        sums.first_m = rho_smaller(sums.first_m, at.along_m);
-        sums.last_m = rho_larger(sums.last_m, at.along_m);
-        sums.noise_m2 = rho_larger(sums.noise_m2, at.noise_m2[0]);
-    }
-    return sums;
+    const float far_m = at->sight_line[0] * at->dx_m + at->sight_line[1] * at->dy_m,
+                side_m = at->sight_line[0] * at->dy_m - at->sight_line[1] * at->dx_m;
+    sums->first_m = sums->n > 0.0f ? rho_smaller(sums->first_m, at->along_m) : at->along_m;
+    sums->last_m = sums->n > 0.0f ? rho_larger(sums->last_m, at->along_m) : at->along_m;
+    sums->noise_m2 = rho_larger(sums->noise_m2, at->noise_m2[0]);
+    sums->n += 1.0f;
+    sums->far += far_m;
+    sums->side += side_m;
+    sums->rate += at->rate_mps;
+    sums->far2 += far_m * far_m;
+    sums->cross += far_m * side_m;
+    sums->side2 += side_m * side_m;
+    sums->rate2 += at->rate_mps * at->rate_mps;
+    sums->rate_far += at->rate_mps * far_m;
+    sums->rate_side += at->rate_mps * side_m;
+    sums->side_noise_m2 += plot->sigma_cross_m * plot->sigma_cross_m;
+    sums->line_turn_m2ps2 += at->line_turn_m2ps2;
+    sums->rate_noise_m2ps2 += plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
 }
 
 void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
-                          const struct rho_scan *scan, unsigned row)
+                          const struct body_sums *of, unsigned row)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
     struct rho_body_doubt *doubt = &body->doubt;
-    const struct look_sums sums = sum_look(look, scan, row);
+    const struct body_sums sums = *of;
     const float passed_s =
         doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, look->time_us) : 0.0f;
     if (sums.n < 2.0f || !body->has_heading) {
@@ -82,30 +60,24 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
     doubt->long_looks *= share;
     const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
                                                   rho_atan2(body->sin_heading, body->cos_heading));
-    if (doubt->plots_beyond_one <= 0.0f || turned_rad > heading_tolerance_rad(body) ||
-        turned_rad < -heading_tolerance_rad(body)) {
-        /* the sums of range rates begin anew: parts of a turning body have different ones */
-        *doubt = (struct rho_body_doubt){.looks = doubt->looks,
-                                         .long_looks = doubt->long_looks,
-                                         .cos_heading = body->cos_heading,
-                                         .sin_heading = body->sin_heading,
-                                         .time_us = doubt->time_us};
-    } else {
-        doubt->steady_looks *= share;
-        doubt->time_s = share * doubt->time_s + passed_s;
-        doubt->cos_heading += (1.0f - share) * (body->cos_heading - doubt->cos_heading);
-        doubt->sin_heading += (1.0f - share) * (body->sin_heading - doubt->sin_heading);
-        doubt->plots_beyond_one *= share;
-        doubt->far_m2 *= share;
-        doubt->side_m2 *= share;
-        doubt->cross_m2 *= share;
-        doubt->rates_m2ps2 *= share;
-        doubt->side_noise_m2 *= share;
-        doubt->far_m2ps *= share;
-        doubt->side_m2ps *= share;
-        doubt->rate_noise_m2ps2 *= share;
-        doubt->unknown_m2ps2 *= share;
-    }
+    /* the sums of range rates begin anew with a turn: parts of a turning body have different ones */
+    const int is_anew =
+        doubt->plots_beyond_one <= 0.0f || rho_magnitude(turned_rad) > heading_tolerance_rad(body);
+    const float kept = is_anew ? 0.0f : share;
+    doubt->steady_looks *= kept;
+    doubt->time_s = is_anew ? 0.0f : share * doubt->time_s + passed_s;
+    doubt->cos_heading += (1.0f - kept) * (body->cos_heading - doubt->cos_heading);
+    doubt->sin_heading += (1.0f - kept) * (body->sin_heading - doubt->sin_heading);
+    doubt->plots_beyond_one *= kept;
+    doubt->far_m2 *= kept;
+    doubt->side_m2 *= kept;
+    doubt->cross_m2 *= kept;
+    doubt->rates_m2ps2 *= kept;
+    doubt->side_noise_m2 *= kept;
+    doubt->far_m2ps *= kept;
+    doubt->side_m2ps *= kept;
+    doubt->rate_noise_m2ps2 *= kept;
+    doubt->unknown_m2ps2 *= kept;
     if (sums.last_m - sums.first_m >
         tracker->bodies.length_max_m + BODY_ERROR_SIGMAS * rho_sqrt(sums.noise_m2)) {
         doubt->long_looks += 1.0f;

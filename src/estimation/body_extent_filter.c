@@ -43,12 +43,9 @@ void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float ve
     const float c = velocity_mps[0] / speed_mps, s = velocity_mps[1] / speed_mps;
     const float across_m2ps2 =
         s * s * covariance[0] - 2.0f * c * s * covariance[1] + c * c * covariance[2];
-    const float across_mps = rho_sqrt(across_m2ps2);
     /* of one who stops only the velocity across the line of sight is left: noise turns no body */
-    const float most_mps =
-        rho_sqrt(rho_larger(across_m2ps2, covariance[0] + covariance[2] - across_m2ps2));
-    if (!(speed_mps > HEADING_SIGMAS * across_mps) ||
-        !(speed_mps > TURNED_SIGMAS * most_mps || most_mps < body->heading_sigma_rad * speed_mps)) {
+    const float most_m2ps2 = rho_larger(across_m2ps2, covariance[0] + covariance[2] - across_m2ps2);
+    if (!(speed_mps * speed_mps > HEADING_SIGMAS * HEADING_SIGMAS * most_m2ps2)) {
         return;
     }
     if (!body->has_heading) {
@@ -58,7 +55,7 @@ void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float ve
     }
     body->cos_heading = c;
     body->sin_heading = s;
-    body->heading_sigma_rad = across_mps / speed_mps;
+    body->heading_sigma_rad = rho_sqrt(across_m2ps2) / speed_mps;
     body->has_heading = 1;
 }
 

@@ -99,15 +99,10 @@
  */
 #define SQUARES_OF_BODY 0.2f
 /*
- * Speed, in standard deviations, above which the velocity gives the body's heading. Half: noise
- * turns the bodies of standing targets. Twice: slow ones get their heading late.
+ * Speed, in standard deviations of its less certain axis, above which the velocity gives the body's
+ * heading. Half: bodies of targets that stop turn across the road. Twice: slow ones get it late.
  */
-#define HEADING_SIGMAS 3.0f
-/*
- * The same, by the larger sigma of both axes, for a heading less certain than the one before. Half:
- * the bodies of targets that stop turn across the road. Twice: bodies that turn keep their heading.
- */
-#define TURNED_SIGMAS 5.0f
+#define HEADING_SIGMAS 5.0f
 /*
  * Actual variance of velocities' directions, as a share of what filters that expect manoeuvres
  * state. Half: widths are too large, as wrong headings count as width. Twice: they are too small.

@@ -144,7 +144,6 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
         if (tracker->tracks[row].plot < 0) {
             continue;
         }
-        rho_bodies_add_doubt(tracker, &step->look, scan, row);
         enum rho_body_split why = rho_bodies_split_reason(tracker, row);
         if (rho_bodies_is_settled(tracker, row) && 12.0f * body->across_m2 > widest_m * widest_m) {
             rho_body_shape(body, &shape);

@@ -29,6 +29,9 @@ static inline void begin_look(int64_t time_us, float sigma_m)
     for (uint32_t i = 0; i < num_plots; i++) {
         report.fates[i] = RHO_FATE_HELD;
     }
+    for (unsigned row = 0; row < tracker.num_tracks; row++) {
+        tracker.tracks[row].time_us = time_us; /* as they are predicted to it */
+    }
     memset(&tracker.bodies.groups, 0xff, sizeof tracker.bodies.groups);
     rho_plots_index(&tracker, &at.look);
     rho_work_begin_phase(&tracker, &at.work, 1);

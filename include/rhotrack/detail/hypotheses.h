@@ -46,7 +46,7 @@ RHO_BEGIN_C
 /* Number of last scans in whose plots two hypotheses of a track must differ. */
 #define RHO_HYPOTHESES_MEMORY 3
 /* Least weight relative to the best hypothesis, nat; lighter ones are removed. */
-#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f)
+#define RHO_HYPOTHESES_WEIGHT_MIN (-17.0f)
 #define RHO_HYPOTHESES_MISS (-1)
 
 /* A plot of the scan in the gate of one hypothesis. */

@@ -204,7 +204,14 @@ static void add_looks(int looks, float each_s, const struct look *look)
         scan.num_plots = num_plots;
         at.look.time_us += llround(1e6 * (double)each_s);
         tracker.tracks[0].time_us = at.look.time_us;
-        rho_bodies_add_doubt(&tracker, &at.look, &scan, 0);
+        const struct body_outline outline = rho_bodies_outline_track(&at.look, 0);
+        struct body_sums sums = {0};
+        for (unsigned i = 0; i < num_plots; i++) {
+            struct outline_fit fit;
+            rho_bodies_see_plot(&at.look, &outline, &plots[i], &fit);
+            rho_bodies_sum_plot(&sums, &plots[i], &fit);
+        }
+        rho_bodies_add_doubt(&tracker, &at.look, &sums, 0);
     }
 }
 

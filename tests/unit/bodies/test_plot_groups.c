@@ -209,7 +209,7 @@ static void the_gate_of_an_unknown_body_is_half_the_longest(void **state)
 }
 
 /*
- * Work units: six for a plot and a body, two for a pair of plots, one for each skipped plot; and
+ * Work units: four for a plot and a body, two for a pair of plots, one for each skipped plot; and
  * two for each track, and one for each plot near it, as its neighbours are looked for.
  */
 static void work_of_grouping_is_counted(void **state)
@@ -219,7 +219,7 @@ static void work_of_grouping_is_counted(void **state)
     make_track_with_body(100.0f);
     add_plot_near_track(0.0, 0.0, 0.0);
     group_plots();
-    assert_int_equal(at.work.spent, 6 + 2 + 1);
+    assert_int_equal(at.work.spent, 4 + 2 + 1);
     (void)count_groups_of_two_plots(0, 5.0, 0.0);
     assert_int_equal(at.work.spent, 2 + 2 * 1);
     tracker.config.work_max = 800000;

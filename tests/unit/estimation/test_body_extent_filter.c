@@ -257,15 +257,27 @@ static void expect_close(double is, double wanted)
     assert_true(fabs(is - wanted) <= 2e-5 * fabs(wanted));
 }
 
-static void a_heading_needs_a_speed_of_three_sigmas(void **state)
+static void a_heading_needs_a_speed_of_five_sigmas(void **state)
 {
     struct rho_body_filter body;
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f, (float)ASPECT);
-    set_velocity(&body, 2.9f, 0.0f, 1.0f);
+    set_velocity(&body, 4.9f, 0.0f, 1.0f);
     assert_int_equal(body.has_heading, 0);
-    set_velocity(&body, 3.1f, 0.0f, 1.0f);
+    set_velocity(&body, 5.1f, 0.0f, 1.0f);
     assert_int_equal(body.has_heading, 1);
+}
+
+/* Of one who stops, the velocity across the line of sight is noise of an uncertain axis. */
+static void noise_of_one_who_stops_turns_no_body(void **state)
+{
+    struct rho_body_filter body;
+    const float stopped_mps[2] = {0.0f, 4.0f}, covariance[3] = {0.01f, 0.0f, 1.0f};
+    (void)state;
+    rho_body_filter_init(&body, 1, 9.0f, (float)ASPECT);
+    set_velocity(&body, 10.0f, 0.0f, 1.0f);
+    rho_body_set_heading_if_moving(&body, stopped_mps, covariance);
+    assert_true(body.cos_heading == 1.0f);
 }
 
 /*
@@ -427,7 +439,8 @@ static int does_plot_update_width(double along_m)
     struct rho_body_filter body;
     struct rho_body_look look = {0};
     rho_body_filter_init(&body, 1, 1.0f, (float)ASPECT);
-    set_velocity(&body, 10.0f, 0.0f, 9.0f);
+    set_velocity(&body, 10.0f, 0.0f, 0.0f);
+    body.heading_sigma_rad = 0.3f;
     body.along.weight = 2000.0f;
     const float before = body.across.weight;
     add_plot_to_look(&look, along_m, 0.0, 0.0);
@@ -452,7 +465,8 @@ int main(void)
         cmocka_unit_test(the_heading_follows_velocities_that_are_well_known),
         cmocka_unit_test(rotating_a_covariance_to_body_axes_and_back_restores_it),
         cmocka_unit_test(the_width_is_at_least_a_sixteenth_of_the_length),
-        cmocka_unit_test(a_heading_needs_a_speed_of_three_sigmas),
+        cmocka_unit_test(a_heading_needs_a_speed_of_five_sigmas),
+        cmocka_unit_test(noise_of_one_who_stops_turns_no_body),
         cmocka_unit_test(a_new_body_has_the_prior_length_and_a_third_of_it_as_width),
         cmocka_unit_test(every_update_agrees_with_the_derivation),
         cmocka_unit_test(a_plot_far_out_along_the_body_does_not_update_the_width),
