@@ -60,7 +60,7 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
     doubt->long_looks *= share;
     const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
                                                   rho_atan2(body->sin_heading, body->cos_heading));
-    /* the sums of range rates begin anew with a turn: parts of a turning body have different ones */
+    /* sums of range rates begin anew with a turn: parts of a turning body have different ones */
     const int is_anew =
         doubt->plots_beyond_one <= 0.0f || rho_magnitude(turned_rad) > heading_tolerance_rad(body);
     const float kept = is_anew ? 0.0f : share;
