@@ -11,9 +11,9 @@
 #define SHARE_SHOWN_MIN 1.2340980e-4f
 
 /*
- * Largest loss of a hypothesis' weight at one update for a speed above the limit, nat,
- * hypotheses_scan.c: of 17 that are kept. Half: a history that is too fast lasts two more updates.
- * Twice: one plot far off ends it at once.
+ * Largest loss of a hypothesis' weight at one update for a speed above the limit, nat: 10 of
+ * the 17 within which hypotheses are kept, hypotheses_scan.c. Half: a history that is too fast
+ * lasts more updates. Twice: one plot far off ends it at once.
  */
 #define SPEED_LOSS_MAX_NAT 10.0f
 

@@ -23,8 +23,8 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
                        const struct rho_scan *scan);
 /* outline.c: where a look's plots of a body are expected */
 struct body_outline {
-    float place_m[2], velocity_mps[3]; /* of its centre */
-    float ahead_s;                     /* from that time to the look's */
+    float place_m[2], velocity_mps[3]; /* of its centre, at the track's time */
+    float ahead_s;                     /* to the look's time; 0 before the update: predicted */
     float velocity_m2ps2[3];           /* covariance of the velocity: xx, yx, yy */
     float cos_heading, sin_heading;
     float along_m2, across_m2; /* variances of a place on the body */
@@ -42,7 +42,7 @@ struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, 
 struct outline_fit {
     float dx_m, dy_m, along_m, across_m; /* distance in x and y, and along and across the body */
     float noise_m2[3];                   /* covariance of the place: along, cross, across */
-    int has_rate;                        /* 1: a range rate was measured, and what follows is set */
+    int has_rate;                        /* 1: a range rate was measured; else what follows is 0 */
     float rate_mps;                      /* less that of a target there with the velocity */
     float rate_m2ps2;                    /* variance by the noise of rate and azimuth */
     float line_turn_m2ps2; /* the azimuth's part of it: its error turns the line of sight */
@@ -90,7 +90,7 @@ void rho_bodies_sum_plot(struct body_sums *sums, const struct rho_plot *plot,
                          const struct outline_fit *at);
 /* Adds them to the evidence that the track's body is two targets. */
 void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
-                          const struct body_sums *of, unsigned row);
+                          const struct body_sums *sums, unsigned row);
 /* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
 enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row);
 /* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */

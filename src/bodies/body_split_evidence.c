@@ -43,17 +43,16 @@ void rho_bodies_sum_plot(struct body_sums *sums, const struct rho_plot *plot,
 }
 
 void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
-                          const struct body_sums *of, unsigned row)
+                          const struct body_sums *sums, unsigned row)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
     struct rho_body_doubt *doubt = &body->doubt;
-    const struct body_sums sums = *of;
     const float passed_s =
         doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, look->time_us) : 0.0f;
-    if (sums.n < 2.0f || !body->has_heading) {
+    if (sums->n < 2.0f || !body->has_heading) {
         return;
     }
-    const float mean = 1.0f / sums.n;
+    const float mean = 1.0f / sums->n;
     doubt->time_us = look->time_us;
     const float share = 1.0f - 1.0f / DOUBT_MEMORY;
     doubt->looks = share * doubt->looks + 1.0f;
@@ -78,17 +77,17 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
     doubt->side_m2ps *= kept;
     doubt->rate_noise_m2ps2 *= kept;
     doubt->unknown_m2ps2 *= kept;
-    if (sums.last_m - sums.first_m >
-        tracker->bodies.length_max_m + BODY_ERROR_SIGMAS * rho_sqrt(sums.noise_m2)) {
+    if (sums->last_m - sums->first_m >
+        tracker->bodies.length_max_m + BODY_ERROR_SIGMAS * rho_sqrt(sums->noise_m2)) {
         doubt->long_looks += 1.0f;
     }
     if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE) || body->plots < SETTLED_LOOKS) {
         return; /* the velocity of a new track is too uncertain for its range rates to be judged */
     }
     doubt->steady_looks += 1.0f;
-    doubt->plots_beyond_one += sums.n - 1.0f;
-    doubt->far_m2 += sums.far2 - mean * sums.far * sums.far;
-    const float side_m2 = sums.side2 - mean * sums.side * sums.side;
+    doubt->plots_beyond_one += sums->n - 1.0f;
+    doubt->far_m2 += sums->far2 - mean * sums->far * sums->far;
+    const float side_m2 = sums->side2 - mean * sums->side * sums->side;
     /* one sigma of the velocity across the line of sight adds this turn to range rates */
     const struct rho_track *track = &tracker->tracks[row];
     const float x_m = track->kalman.state[RHO_X] - (look->sensor ? look->sensor->x_m : 0.0f),
@@ -97,13 +96,13 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
         rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
     doubt->side_m2 += side_m2;
     doubt->unknown_m2ps2 +=
-        turned_radps * turned_radps * side_m2 + (1.0f - mean) * sums.line_turn_m2ps2;
-    doubt->side_noise_m2 += (1.0f - mean) * sums.side_noise_m2;
-    doubt->cross_m2 += sums.cross - mean * sums.far * sums.side;
-    doubt->rates_m2ps2 += sums.rate2 - mean * sums.rate * sums.rate;
-    doubt->far_m2ps += sums.rate_far - mean * sums.rate * sums.far;
-    doubt->side_m2ps += sums.rate_side - mean * sums.rate * sums.side;
-    doubt->rate_noise_m2ps2 += (1.0f - mean) * sums.rate_noise_m2ps2;
+        turned_radps * turned_radps * side_m2 + (1.0f - mean) * sums->line_turn_m2ps2;
+    doubt->side_noise_m2 += (1.0f - mean) * sums->side_noise_m2;
+    doubt->cross_m2 += sums->cross - mean * sums->far * sums->side;
+    doubt->rates_m2ps2 += sums->rate2 - mean * sums->rate * sums->rate;
+    doubt->far_m2ps += sums->rate_far - mean * sums->rate * sums->far;
+    doubt->side_m2ps += sums->rate_side - mean * sums->rate * sums->side;
+    doubt->rate_noise_m2ps2 += (1.0f - mean) * sums->rate_noise_m2ps2;
 }
 
 /*

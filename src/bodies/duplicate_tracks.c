@@ -235,10 +235,7 @@ static void end_duplicate(struct step *step, unsigned older, unsigned younger, i
     rho_life_end(step, &tracks[younger]);
 }
 
-/*
- * True of a track that is known to be another target than all others, and whose plots no other
- * contends for: it is not asked again.
- */
+/* True of one long apart from each older track, whose plots no other contends for: not asked. */
 static int is_surely_apart(const struct rho_tracker *tracker, unsigned row, int is_contested)
 {
     return !is_contested && tracker->bodies.of[row].two_nat >= TWO_MOST_NAT &&
@@ -250,12 +247,16 @@ void rho_bodies_end_duplicates(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
     uint8_t is_contested[RHO_BODY_TRACKS] = {0};
+    if (!step->look.teaches) {
+        return;
+    }
+    rho_work_spend(&step->work, step->look.num_gated / RHO_WORK_PASSED_A_UNIT);
     for (uint32_t i = 0; i < step->look.num_gated; i++) {
         if (groups->contender[i] != RHO_NO_ROW) {
             is_contested[groups->contender[i]] = is_contested[groups->owner[i]] = 1;
         }
     }
-    for (unsigned row = tracker->num_tracks; step->look.teaches && row-- > 0;) {
+    for (unsigned row = tracker->num_tracks; row-- > 0;) {
         struct rho_body_filter *body = &tracker->bodies.of[row];
         int is_seen = 0;
         if (!rho_bodies_may_own(&step->look, row) ||

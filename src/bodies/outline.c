@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * outline: where a look's plots of a body are expected, at its time.
+ * outline: where a look's plots of a body are expected.
  *
  * A place on the body is uniform along its heading and normal across it, the error of the
  * prediction and the plot's noise are normal. So with the offset u along and v across, and the
@@ -106,8 +106,9 @@ void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline 
     float range_m = ground_m, per_m = is_far ? 1.0f / ground_m : 0.0f;
     float sigma_m = factors.range * plot->sigma_range_m,
           side_m = factors.cross * plot->sigma_cross_m;
-    sigma_m = is_far ? sigma_m : rho_larger(sigma_m, side_m);
-    side_m = is_far ? side_m : sigma_m;
+    if (!is_far) {
+        sigma_m = side_m = rho_plot_sigma_m(plot) * rho_larger(factors.range, factors.cross);
+    }
     const float ahead = is_far ? per_m * (c * x_m + s * y_m) : 1.0f,
                 aside = per_m * (c * y_m - s * x_m);
     const float range_m2 = sigma_m * sigma_m, side_m2 = side_m * side_m;
@@ -124,6 +125,11 @@ void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline 
     }
     fit->has_rate =
         (look->scan->measures & RHO_MEASURES_RANGE_RATE) && range_m >= RHO_RANGE_LEAST_M;
+    if (!fit->has_rate) {
+        fit->sight_line[0] = fit->sight_line[1] = 0.0f;
+        fit->rate_mps = fit->rate_m2ps2 = fit->line_turn_m2ps2 = 0.0f;
+        return;
+    }
     fit->sight_line[0] = per_m * x_m;
     fit->sight_line[1] = per_m * y_m;
     fit->rate_mps = rho_measurement_innovation_mps(

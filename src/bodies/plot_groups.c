@@ -299,22 +299,19 @@ static void make_group_plot(const struct rho_look *look, unsigned group, struct 
         sigma_within_limits(rho_sqrt((out->sigma_range_m * out->sigma_range_m + along_m2) / n));
     out->sigma_cross_m =
         sigma_within_limits(rho_sqrt((out->sigma_cross_m * out->sigma_cross_m + across_m2) / n));
+    float off_m2 = 0.0f, off_m2ps2 = 0.0f; /* squared differences of heights and of range rates */
+    for (unsigned i = first; i != RHO_NO_ROW; i = bodies->groups.next[i]) {
+        const struct rho_plot *plot = &look->scan->plots[i];
+        const float off_mps =
+            rho_measurement_innovation_mps(look->sensor, plot->range_rate_mps, out->range_rate_mps);
+        off_m2 += (plot->z_m - out->z_m) * (plot->z_m - out->z_m);
+        off_m2ps2 += off_mps * off_mps;
+    }
     if (look->scan->measures & RHO_MEASURES_Z) {
-        float off_m2 = 0.0f; /* squared differences of heights from the mean */
-        for (unsigned i = first; i != RHO_NO_ROW; i = bodies->groups.next[i]) {
-            const float dz_m = look->scan->plots[i].z_m - out->z_m;
-            off_m2 += dz_m * dz_m;
-        }
         out->sigma_up_m =
             sigma_within_limits(rho_sqrt((out->sigma_up_m * out->sigma_up_m + off_m2 / n) / n));
     }
     if (look->scan->measures & RHO_MEASURES_RANGE_RATE) {
-        float off_m2ps2 = 0.0f; /* squared differences of range rates from the mean */
-        for (unsigned i = first; i != RHO_NO_ROW; i = bodies->groups.next[i]) {
-            const float off_mps = rho_measurement_innovation_mps(
-                look->sensor, look->scan->plots[i].range_rate_mps, out->range_rate_mps);
-            off_m2ps2 += off_mps * off_mps;
-        }
         out->sigma_range_rate_mps = sigma_within_limits(
             rho_sqrt((out->sigma_range_rate_mps * out->sigma_range_rate_mps + off_m2ps2 / n) / n));
     }

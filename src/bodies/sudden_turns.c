@@ -3,7 +3,7 @@
  * sudden_turns: follows a body that turns at once, as a person at a wall. Its plots are where they
  * are expected, with other range rates, all of them: that is hardly clutter, and the filter, which
  * expects a turn of some looks, would lose them. The velocity becomes uncertain, and the plots are
- * the track's. A body of one or two plots cannot say so.
+ * the track's. A body of one or two plots cannot say so; a settled one with all plots near need not.
  */
 #include "bodies.h"
 #include "policy.h"
@@ -49,8 +49,8 @@ static struct plots_near near_outline(const struct rho_look *look,
                           outline->place_m[1] - half_m, outline->place_m[1] + half_m);
 }
 
-/* The next of these plots that is the track's, or no track's: `or_own` 0 asks for the latter. */
-static int next_plot(struct step *step, struct plots_near *near, unsigned row, int or_own,
+/* The next of these plots that is the track's, or no track's: `is_own_too` 0 asks for the latter. */
+static int next_plot(struct step *step, struct plots_near *near, unsigned row, int is_own_too,
                      uint32_t *plot)
 {
     const struct rho_look *look = &step->look;
@@ -58,7 +58,7 @@ static int next_plot(struct step *step, struct plots_near *near, unsigned row, i
     while (!rho_work_is_spent(&step->work) && rho_plots_next(look, near, plot)) {
         const unsigned owner = groups->owner[*plot];
         rho_work_spend(&step->work, PASS_UNITS);
-        if ((owner == RHO_NO_ROW || (or_own && owner == row)) &&
+        if ((owner == RHO_NO_ROW || (is_own_too && owner == row)) &&
             look->fates[*plot] == RHO_FATE_HELD &&
             rho_plots_is_within(near, &look->scan->plots[*plot])) {
             return 1;

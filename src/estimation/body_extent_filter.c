@@ -55,7 +55,7 @@ void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float ve
     }
     body->cos_heading = c;
     body->sin_heading = s;
-    body->heading_sigma_rad = rho_sqrt(across_m2ps2) / speed_mps;
+    body->heading_sigma_rad = rho_sqrt(rho_larger(across_m2ps2, 0.0f)) / speed_mps;
     body->has_heading = 1;
 }
 

@@ -99,7 +99,7 @@
  */
 #define SQUARES_OF_BODY 0.2f
 /*
- * Speed, in standard deviations of its less certain axis, above which the velocity gives the body's
+ * Speed, in standard deviations of the velocity along or across it, above which it gives the body's
  * heading. Half: bodies of targets that stop turn across the road. Twice: slow ones get it late.
  */
 #define HEADING_SIGMAS 5.0f

@@ -29,7 +29,7 @@ check 'bodies at each step' test "$lists" -gt 300 -a "$(count bodies.lcm RHO_BOD
 check 'none of points' test "$(count points.lcm RHO_BODIES)" -eq 0
 check 'whose tracks are many more' test "$(count points.lcm RHO_TRACKS)" -gt "$lists"
 
-# 64 vehicles at once: as many as the node has tracks. It knows its radar. With 13 450 to
+# 64 vehicles at once: as many as the node has tracks. It knows its radar. With 96 hypotheses
 # 14 000 units of work, completeness was .80 to .86, up and down.
 follows() { # least completeness of its tracks
     ./bodies dense.lcm out.lcm radars=1 && "$program" convert out.lcm tracks.csv 2>/dev/null &&

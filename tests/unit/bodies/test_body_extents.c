@@ -109,6 +109,12 @@ static void a_truck_of_several_plots_has_one_track(void **state)
         assert_true(fabs(off_m) < 1.0);
         assert_int_equal(rho_tracker_body_of(&tracker, 1, &body), 0);
         assert_int_equal(rho_tracker_body_of(NULL, 0, &body), 0);
+        assert_true(rho_tracker_has_body(&tracker, 0));
+        assert_false(rho_tracker_has_body(&tracker, 1));
+        assert_false(rho_tracker_has_body(NULL, 0));
+        tracker.bodies.of[0].most_plots = 1; /* no scan had two */
+        assert_false(rho_tracker_has_body(&tracker, 0));
+        tracker.bodies.of[0].most_plots = 2;
         assert_int_equal(rho_tracker_body_of(&tracker, 0, NULL), 0);
         assert_true(rho_tracker_is_sound(&tracker));
     }

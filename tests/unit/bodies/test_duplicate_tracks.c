@@ -113,6 +113,25 @@ static void cars_apart_stay_two(void **state)
     assert_int_equal(looks_until_one_ends((const float[2]){10.0f, 13.0f}), 0);
 }
 
+/* Long apart, and no plot is contended for: the pair is not asked; else it is. */
+static void who_was_long_apart_is_asked_where_plots_are_contested(void **state)
+{
+    (void)state;
+    for (int is_contested = 0; is_contested < 2; is_contested++) {
+        uint32_t spent = 0;
+        make_two_tracks(0.5f, 0.0f, 1000);
+        tracker.bodies.of[1].two_nat = 30.0f;
+        for (unsigned look = 1; look <= 200 && tracker.tracks[1].status; look++) {
+            see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
+            tracker.bodies.groups.contender[5] = is_contested ? 0 : UINT16_MAX;
+            rho_bodies_end_duplicates(&at);
+            spent += at.work.spent;
+        }
+        assert_int_equal(tracker.tracks[1].status == RHO_TRACK_FREE, is_contested);
+        assert_int_equal(spent > 2000, is_contested);
+    }
+}
+
 /* Bumper to bumper two cars are as long as a lorry: known as two they stay, else they do not. */
 static void what_is_known_to_be_two_stays_two(void **state)
 {
@@ -328,6 +347,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_younger_of_two_tracks_of_one_car_ends),
         cmocka_unit_test(cars_apart_stay_two),
+        cmocka_unit_test(who_was_long_apart_is_asked_where_plots_are_contested),
         cmocka_unit_test(what_is_known_to_be_two_stays_two),
         cmocka_unit_test(a_track_apart_becomes_known),
         cmocka_unit_test(a_look_without_plots_says_nothing),

@@ -8,6 +8,7 @@
 #define RHO_MAX_SCANS 4
 #define RHO_MAX_PLOTS 128
 #define RHO_MAX_TRACKS 64
+#define RHO_MAX_HYPOTHESES 70
 #define RHO_BODIES 1
 #define RHO_MAX_ECHOES 0
 #define RHO_MAX_BINS 144
