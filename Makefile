@@ -343,7 +343,7 @@ quick_scripts := $(wildcard $(quick_scripts)) \
 # What the embedded profile leaves out is tested in the other one.
 left_out := tracker/test_track_evidence bodies/test_body_extents \
             bodies/test_body_split_evidence bodies/test_duplicate_tracks bodies/test_plot_groups \
-            bodies/test_sudden_turns step/test_split_bodies
+            bodies/test_outline bodies/test_sudden_turns step/test_split_bodies
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) \
                   $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \
                   $(left_out:%=$(BUILD)/tests/workstation/unit/%)

@@ -31,6 +31,8 @@ struct body_outline {
     float error_m2[3];         /* covariance of the predicted place: along, cross, across */
     float plots;               /* mean number of plots a look */
 };
+/* Width of the widest body: short ones, as people, may be as wide as long. */
+float rho_bodies_widest_m(float longest_m);
 /* The most that a target moves between a look's time and one of its plots, if this fast. */
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2]);
 struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsigned row);
@@ -106,9 +108,6 @@ float rho_bodies_prior_m2(const struct rho_tracker *tracker);
 
 /* True once the body's first heading and the track's first velocity are corrected. */
 int rho_bodies_is_settled(const struct rho_tracker *tracker, unsigned row);
-
-/* Width of the widest body: short ones, as people, may be as wide as long. */
-float rho_bodies_widest_m(float longest_m);
 
 /* sudden_turns.c: a body that turns at once keeps its plots; its velocity becomes uncertain */
 void rho_bodies_follow_turns(struct step *step);

@@ -26,11 +26,6 @@ int rho_bodies_is_settled(const struct rho_tracker *tracker, unsigned row)
     return tracker->bodies.of[row].plots >= SETTLED_PLOTS;
 }
 
-float rho_bodies_widest_m(float longest_m)
-{
-    return rho_larger(WIDEST_SHARE * longest_m, rho_smaller(longest_m, ROUND_MOST_M));
-}
-
 enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float length_max_m)
 {
     const enum rho_status status = rho_tracker_check(tracker, 1);

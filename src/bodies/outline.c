@@ -17,6 +17,11 @@
 #include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
 
+float rho_bodies_widest_m(float longest_m)
+{
+    return rho_larger(WIDEST_SHARE * longest_m, rho_smaller(longest_m, ROUND_MOST_M));
+}
+
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2])
 {
     return look->offset_max_s *

@@ -71,6 +71,12 @@
 /* outline.c */
 
 /*
+ * Width of the widest body: a share of the longest, but this many m at least, and at most the
+ * length: people are round. Half: lorries are split. Twice: cars abreast keep one track.
+ */
+#define WIDEST_SHARE 0.3f
+#define ROUND_MOST_M 2.5f
+/*
  * Sigma of a heading below which the width of a body is across it, and not in any direction. Half:
  * cars abreast are one for longer. Twice: new trucks, with their first heading, are two.
  */
@@ -132,13 +138,6 @@
 
 /* Weight of a look in the mean number of plots. Half or twice: it follows later, or is noisier. */
 #define PLOTS_SHARE 0.07f
-/*
- * Width of the widest body: a share of the longest, but this many m at least, and at most the
- * length: people are round. Half: lorries are split. Twice: cars abreast keep one track.
- */
-#define WIDEST_SHARE 0.3f
-#define ROUND_MOST_M 2.5f
-
 /* plot_groups.c */
 
 /* Sigmas of a plot on a body. Half: its outer plots start tracks. Twice: it takes a neighbour's. */

@@ -3,7 +3,7 @@
  * sudden_turns: follows a body that turns at once, as a person at a wall. Its plots are where they
  * are expected, with other range rates, all of them: that is hardly clutter, and the filter, which
  * expects a turn of some looks, would lose them. The velocity becomes uncertain, and the plots are
- * the track's. A body of one or two plots cannot say so; a settled one with all plots near need not.
+ * the track's. A body of one or two plots cannot say so; a settled one that has all need not.
  */
 #include "bodies.h"
 #include "policy.h"
@@ -49,7 +49,7 @@ static struct plots_near near_outline(const struct rho_look *look,
                           outline->place_m[1] - half_m, outline->place_m[1] + half_m);
 }
 
-/* The next of these plots that is the track's, or no track's: `is_own_too` 0 asks for the latter. */
+/* The next of these plots that is no track's, or the track's own where is_own_too. */
 static int next_plot(struct step *step, struct plots_near *near, unsigned row, int is_own_too,
                      uint32_t *plot)
 {
