@@ -95,6 +95,42 @@ head -n 300 as_stated/plots.csv >short.csv
 run calibrate short.csv --config as_stated/scenario.ini -o short.ini
 check 'anything, of five turns' exits 1
 check 'then there is no INI file' test ! -e short.ini
+# A radar beside another, which has looked ten times.
+python3 - <<'END'
+rows = [f"{t},{sensor},{x},{y}" for t in range(80) for sensor in (1, 2) if sensor == 1 or t < 10
+        for x, y in ((0, 0), (100 + 9 * t, 200), (300, 900 - 7 * t))]
+with open("at_sensor.csv", "w") as file:
+    print("t_s,sensor_id,x_m,y_m", *rows, sep="\n", file=file)
+with open("only_at_sensor.csv", "w") as file:
+    print("t_s,sensor_id,x_m,y_m", *(row for row in rows if ",1," in row or row.endswith(",0,0")),
+          sep="\n", file=file)
+END
+bodies='--set body_max_m=5 --set sigma_range_m=2 --set sigma_azimuth_rad=0.01'
+# shellcheck disable=SC2086
+run calibrate at_sensor.csv $bodies -o at_sensor.ini
+section() { sed -n "/^.sensor $2.$/,/^.sensor /p" "$1"; }
+check 'pd of ten looks is neither known nor stated' bash -c "$(declare -f section)
+    section at_sensor.ini 2 | grep -qx '# pd: not known' && ! section at_sensor.ini 2 | grep -q ^pd"
+check '... that of the other radar is known' bash -c "$(declare -f section)
+    section at_sensor.ini 1 | grep -q '^pd = 0.9'"
+check 'plots at the sensor have no azimuth noise' \
+    test "$(grep -cx 'sigma_azimuth_rad = 0.01' at_sensor.ini)" -eq 2
+# shellcheck disable=SC2086
+run calibrate only_at_sensor.csv $bodies -o only_at_sensor.ini
+check '... and where there are no others, nothing is stated' \
+    test "$(section only_at_sensor.ini 2 | grep -c '^# sigma_.*: not known$')" -eq 2
+# more radars than a tracker has room for, each with one target
+python3 - <<'END'
+with open("many.csv", "w") as file:
+    print("t_s,sensor_id,x_m,y_m", file=file)
+    for t in range(60):
+        for sensor in range(1, 81):
+            print(f"{t + sensor / 100:.2f},{sensor},{1000 + 20 * t},{1000 + 100 * sensor}",
+                  file=file)
+END
+run calibrate many.csv --json
+check '80 radars without places' exits 0
+check '... all of them' json stdout 'len(o["radars"]) == 80'
 run simulate passive-two -o passive
 run calibrate passive/bearings.csv
 check 'bearings' says 2 'rhotrack: calibrate takes plots, not bearings'

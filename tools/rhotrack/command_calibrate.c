@@ -11,7 +11,10 @@
 #include "io/scans/merged_inputs.h"
 #include "registration/register_data.h"
 
-/* Reads the scans; where beside is not NULL, tracks them as `track` does for it. */
+/*
+ * Reads the scans; where beside is not NULL, tracks them as `track` does for it, up to the first
+ * scan of a radar beyond those for which the tracker has room.
+ */
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data, struct pipeline *pipeline,
                                              struct plots_beside_tracks *beside)
@@ -24,7 +27,9 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
     if (merged_inputs_have_bearings(inputs)) {
         fail(EXIT_USAGE, "calibrate takes plots, not bearings");
     }
-    pipeline_open(pipeline, &line->parameters);
+    if (beside) {
+        pipeline_open(pipeline, &line->parameters);
+    }
     for (struct input input = merged_inputs_next(inputs); input.scan;
          input = merged_inputs_next(inputs)) {
         struct rho_sensor sensor;
@@ -35,8 +40,10 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
             parameters_sensor_or_default(&line->parameters, input.scan->sensor_id, &sensor);
         }
         register_add_unchecked_scan(data, input.scan, &sensor);
-        if (beside) {
-            must_set_sensor(&pipeline->node->tracker, &sensor);
+        if (beside && register_num_radars(data) <= RHO_MAX_SENSORS) {
+            if (input.sensor) {
+                must_set_sensor(&pipeline->node->tracker, input.sensor);
+            }
             pipeline_step(pipeline, input.scan);
             plots_beside_tracks_add_scan(beside, input.scan, &pipeline->node->report);
         }
@@ -85,7 +92,7 @@ int command_calibrate(struct command_line *line)
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "calibrate: the input has no plots");
     }
-    if (!is_body_told) {
+    if (!is_body_told && register_num_radars(data) <= RHO_MAX_SENSORS) {
         body = plots_beside_tracks_find_body(&beside);
         line->parameters.value[PARAMETER_BODY_MAX_M] = body.body_max_m;
     }

@@ -215,16 +215,28 @@ static bool are_enough_segments(const struct calibrate_segments *segments)
            segments->num_segments > segments->num_unfitted;
 }
 
-/* Sets the values of the noise, still unknown, to the means of the stated ones. */
+/*
+ * Sets the values of the noise, still unknown, to the means of the stated ones. Plots nearer than
+ * RHO_RANGE_LEAST_M do not count: at the sensor their noise across is no azimuth's.
+ */
 static void take_stated_noise(const struct radar_data *radar, struct calibrate_radar *out)
 {
-    const double share = 1.0 / (double)radar->num_plots;
+    double range_m = 0.0, azimuth_rad = 0.0, count = 0.0;
 
     for (size_t i = 0; i < radar->num_plots; i++) {
         const struct radar_plot *plot = &radar->plots[i];
 
-        out->figures[CALIBRATE_RANGE].value += share * plot->sigma_range_m;
-        out->figures[CALIBRATE_AZIMUTH].value += share * plot->sigma_cross_m / plot->range_m;
+        if (plot->range_m >= (double)RHO_RANGE_LEAST_M) {
+            range_m += plot->sigma_range_m;
+            azimuth_rad += plot->sigma_cross_m / plot->range_m;
+            count += 1.0;
+        }
+    }
+    if (count > 0.0) {
+        out->figures[CALIBRATE_RANGE] =
+            (struct calibrate_figure){.value = range_m / count, .is_stated = true};
+        out->figures[CALIBRATE_AZIMUTH] =
+            (struct calibrate_figure){.value = azimuth_rad / count, .is_stated = true};
     }
 }
 
@@ -324,12 +336,15 @@ static double count_tracked_plots(const struct register_data *data, size_t radar
 {
     double tracked = 0.0;
 
+    if (has_bodies(data)) {
+        return (double)data->radars[radar_number].claimed;
+    }
     for (size_t i = 0; i < data->num_tracks; i++) {
         if (data->tracks[i].radar == radar_number) {
             tracked += (double)(data->tracks[i].count + data->tracks[i].earlier);
         }
     }
-    return has_bodies(data) ? (double)data->radars[radar_number].claimed : tracked;
+    return tracked;
 }
 
 static struct calibrate_figure estimate_clutter(const struct register_data *data,
@@ -391,7 +406,8 @@ static struct calibrate_figure pd_by_counted_looks(const struct rho_tracker_sens
     if (looks >= LOOKS_MIN) {
         const double pd = (hits + 1.0) / (looks + 2.0);
 
-        figure = (struct calibrate_figure){true, pd, sqrt((pd * (1.0 - pd) + 0.01) / looks)};
+        figure = (struct calibrate_figure){
+            .is_known = true, .value = pd, .sigma = sqrt((pd * (1.0 - pd) + 0.01) / looks)};
     }
     return figure;
 }
@@ -421,8 +437,9 @@ static bool next_track_median_speed(const struct calibrate_segments *segments, s
         speeds[i] = segment->speed_mps;
         square += segment->speed_sigma_mps * segment->speed_sigma_mps / (double)count;
     }
-    *speed =
-        (struct calibrate_figure){true, median(speeds, count), 1.25 * sqrt(square / (double)count)};
+    *speed = (struct calibrate_figure){.is_known = true,
+                                       .value = median(speeds, count),
+                                       .sigma = 1.25 * sqrt(square / (double)count)};
     free(speeds);
     return count >= 2;
 }

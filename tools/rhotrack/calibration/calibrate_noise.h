@@ -33,6 +33,7 @@ enum calibrate_kind {
 struct calibrate_figure {
     bool is_known;
     double value, sigma;
+    bool is_stated; /* not known: the value is the stated one */
 };
 
 struct calibrate_radar {
@@ -41,7 +42,7 @@ struct calibrate_radar {
     bool is_isotropic; /* plots are Cartesian, with equal sigmas on all axes */
     size_t scans, turns, plots, tracks;
     size_t segments, segments_left_out; /* left out: segments that fit no parabola */
-    /* with bodies the noise has the stated value, and is not known */
+    /* with bodies the noise is not known, but has the stated value where plots tell it */
     struct calibrate_figure figures[NUM_CALIBRATE_KINDS];
     /*
      * mean normalised innovation squared of tracks' plots, extrapolated from the four plots before

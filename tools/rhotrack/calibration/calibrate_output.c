@@ -173,7 +173,7 @@ static void write_figure(FILE *out, const struct calibrate_figure *figure, const
     if (figure->is_known) {
         fprintf(out, "# sigma %.2g\n%s%s = %.6g\n", figure->sigma, line_prefix, name,
                 figure->value);
-    } else if (figure->value > 0.0) {
+    } else if (figure->is_stated) {
         fprintf(out, "# as stated\n%s%s = %.4g\n", line_prefix, name, figure->value);
     } else {
         fprintf(out, "# %s: not known\n", name);
