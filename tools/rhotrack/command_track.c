@@ -30,6 +30,7 @@
 
 struct tracking {
     struct pipeline pipeline;
+    const struct parameters *parameters;
     struct pipeline_show *show; /* messages of --show; NULL: none */
     struct clutter_map_file clutter;
     struct zone_events_output zones;
@@ -111,11 +112,17 @@ static void write_show_message(void *context, const char *channel, const uint8_t
     tracks_output_log_message(shown->tracks, shown->time_us, channel, data, size);
 }
 
+/* Whether a body is to be looked for: nobody told its length. */
+static bool is_body_sought(const struct tracking *tracking)
+{
+    return !(tracking->parameters->value[PARAMETER_BODY_MAX_M] > 0.0);
+}
+
 static void step_and_write_input(struct tracking *tracking, const struct input *input,
                                  struct tracks_output *tracks)
 {
     step_and_time_input(tracking, input);
-    if (input->scan) {
+    if (input->scan && is_body_sought(tracking)) {
         plots_beside_tracks_add_scan(&tracking->beside, input->scan,
                                      &tracking->pipeline.node->report);
     }
@@ -534,7 +541,7 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
     struct merged_inputs_counts counts = merged_inputs_counts(inputs);
     struct found_body body = {0.0, 0.0, 0.0};
 
-    if (!(line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0)) {
+    if (is_body_sought(tracking)) {
         body = plots_beside_tracks_find_body(&tracking->beside);
     }
     print_summary(tracking, &counts, &line->parameters);
@@ -581,7 +588,7 @@ static void suggest_after_track(const struct command_line *line)
 
 int command_track(struct command_line *line)
 {
-    struct tracking tracking = {.pipeline = pipeline_allocate()};
+    struct tracking tracking = {.pipeline = pipeline_allocate(), .parameters = &line->parameters};
     struct merged_inputs *inputs;
     struct tracks_output *tracks;
     const char *why = NULL;
