@@ -155,6 +155,19 @@ for name in scans circle pair one_target staring_rows; do
     run track $name.csv -o other.csv --set scan_interval_s=0
     check "$name: as it is" cmp tracks.csv other.csv
 done
+run track clockwise.csv -o tracks.csv
+run track clockwise.csv --set frame_rate_hz=10 -o other.csv
+check 'a rate of frames is nothing to a file with times' exits 0
+check '... which has the same tracks' cmp tracks.csv other.csv
+run convert clockwise.csv turns.lcm
+run convert clockwise.csv framed.lcm --set frame_rate_hz=10
+check '... and messages' cmp turns.lcm framed.lcm
+sed '1s/^t_s/frame/; 1!s/^\([0-9]*\)[.0-9]*/\1/' clockwise.csv >frames.csv
+run track frames.csv --set frame_rate_hz=1 -o tracks.csv
+check 'numbers of frames count' exits 0
+check '... and no turns are looked for' bash -c '! grep -q "gathered into" stderr'
+run convert frames.csv frames.lcm --set frame_rate_hz=1
+check '... nor in messages' bash -c '[ -s frames.lcm ] && ! grep -q "gathered into" stderr'
 sed '1s/$/,scan/; 1!s/$/,1/' clockwise.csv >numbered.csv
 run convert numbered.csv numbered.lcm
 check 'numbers of scans count' bash -c '! grep -q "gathered into" stderr'

@@ -35,9 +35,9 @@
       "score that starts and confirms a track; overrides false_tracks_per_hour")                   \
     X(SIGMA_M, "sigma_m", "m", 10, 0.001, 1e5, 0, 1, "position noise of a plot, each axis")        \
     X(SIGMA_MPS, "sigma_mps", "m/s", 1, 0.001, 1e5, 0, 1, "velocity noise of a plot, each axis")   \
-    X(SIGMA_RANGE_M, "sigma_range_m", "m", 15, 0.001, 1e5, 0, 1, "range noise of a polar plot")    \
+    X(SIGMA_RANGE_M, "sigma_range_m", "m", 15, 0.001, 1e5, 0, 1, "range noise of a plot")          \
     X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 0.003, 1e-6, 0.5, 0, 1,                       \
-      "azimuth noise of a polar plot")                                                             \
+      "azimuth noise of a plot")                                                                   \
     X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 0.003, 1e-6, 0.5, 0, 1,                   \
       "elevation noise of a polar plot")                                                           \
     X(SIGMA_ALT_M, "sigma_alt_m", "m", 30, 0.001, 1e5, 0, 1,                                       \
@@ -219,8 +219,8 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(PD, "pd", "-", 0.01, 0.999, "assumed probability of detection")                              \
     X(SIGMA_M, "sigma_m", "m", 0.001, 1e5, "position noise of a plot, each axis")                  \
     X(SIGMA_MPS, "sigma_mps", "m/s", 0.001, 1e5, "velocity noise of a plot, each axis")            \
-    X(SIGMA_RANGE_M, "sigma_range_m", "m", 0.001, 1e5, "range noise of a polar plot")              \
-    X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 1e-6, 0.5, "azimuth noise of a polar plot")   \
+    X(SIGMA_RANGE_M, "sigma_range_m", "m", 0.001, 1e5, "range noise of a plot")                    \
+    X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 1e-6, 0.5, "azimuth noise of a plot")         \
     X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 1e-6, 0.5,                                \
       "elevation noise of a polar plot")                                                           \
     X(SIGMA_ALT_M, "sigma_alt_m", "m", 0.001, 1e5, "noise of alt_m of a polar plot")               \
@@ -427,8 +427,9 @@ double parameters_value_of_sensor(const struct parameters *parameters, int32_t s
                                   enum sensor_parameter_id id, double otherwise);
 
 /*
- * Whether a source set the noise of a sensor along or across the line of sight, and none that of
- * each axis, sigma_m: its Cartesian plots, such as a radar's cloud of points, have that noise too.
+ * Whether sources set the noise of a sensor both along and across the line of sight, and none that
+ * of each axis, sigma_m: its Cartesian plots, such as a radar's cloud of points, then have that
+ * noise, too.
  */
 bool parameters_states_polar_noise(const struct parameters *parameters, int32_t sensor_id);
 

@@ -159,7 +159,7 @@ bool parameters_states_polar_noise(const struct parameters *parameters, int32_t 
         states[i] = is_parameter_set(parameters, sigmas[i].common) ||
                     !isnan(parameters_value_of_sensor(parameters, sensor_id, sigmas[i].own, NAN));
     }
-    return !states[0] && (states[1] || states[2]);
+    return !states[0] && states[1] && states[2];
 }
 
 /* True where a source set the position noise, for all sensors or for one. */

@@ -577,7 +577,7 @@ int columns_need(const struct columns *columns, enum column_id column)
     if (columns->at[column] >= 0) {
         return columns->at[column];
     }
-    if (column == COL_T_S && columns->at[COL_FRAME] >= 0) {
+    if (column == COL_T_S && columns->at[COL_FRAME] >= 0 && columns->table->frame_rate_hz >= 0) {
         table_fail_at_row(columns->table, TABLE_HEADER,
                           "no column 't_s'; of plots 'frame' tells the time, and needs "
                           "frame_rate_hz: --set frame_rate_hz=10, or what the radar's rate is");

@@ -36,7 +36,10 @@ struct table {
     struct table_column *columns; /* table of numbers: descriptions of the num_columns columns */
     /* units of the columns: value = number * factor + offset; factor 0, or NULL: none */
     double *factors, *offsets;
-    /* above 0: times are numbers of frames over it, where the table has no times (columns.h) */
+    /*
+     * above 0: times are numbers of frames over it, where the table has no times (columns.h); 0: it
+     * is not set; below 0: frames are no times in this table
+     */
     double frame_rate_hz;
     size_t capacity; /* rows that the arrays have room for */
     uint32_t *lines; /* num_rows: the line in the file on which a row begins */

@@ -39,8 +39,9 @@ void frame_gaps_report(const struct frame_gaps *gaps, const char *path)
     if (gaps->looks == 0) {
         return;
     }
-    fprintf(stderr, "rhotrack: %s: %" PRIu64 " frames without rows count as looks without plots",
-            path, gaps->looks);
+    fprintf(stderr,
+            "rhotrack: %s: %" PRIu64 " frame%s without good rows count%s as looks without plots",
+            path, gaps->looks, gaps->looks == 1 ? "" : "s", gaps->looks == 1 ? "s" : "");
     if (gaps->beyond > 0) {
         fprintf(stderr, ", %" PRIu64 " not, being past the first %d of a gap", gaps->beyond,
                 FRAME_GAP_MAX);

@@ -265,8 +265,8 @@ static bool read_polar_sigmas(const struct row_reading *reading, int32_t sensor_
 static bool has_polar_noise(const struct row_reading *reading, int32_t sensor_id)
 {
     return !row_has_cell(&reading->cells, COL_SIGMA_M) &&
-           (row_has_cell(&reading->cells, COL_SIGMA_RANGE_M) ||
-            row_has_cell(&reading->cells, COL_SIGMA_AZIMUTH_RAD) ||
+           ((row_has_cell(&reading->cells, COL_SIGMA_RANGE_M) &&
+             row_has_cell(&reading->cells, COL_SIGMA_AZIMUTH_RAD)) ||
             parameters_states_polar_noise(reading->parameters, sensor_id));
 }
 

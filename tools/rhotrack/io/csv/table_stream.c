@@ -272,7 +272,7 @@ static void process_header_row(struct table_stream *stream)
     }
     columns_rename(table);
     table->frame_rate_hz =
-        stream->parameters ? stream->parameters->value[PARAMETER_FRAME_RATE_HZ] : 0;
+        stream->parameters ? stream->parameters->value[PARAMETER_FRAME_RATE_HZ] : -1;
 }
 
 static void add_row_to_table(struct table_stream *stream)

@@ -60,6 +60,8 @@ static void check_columns(struct reading *reading)
     reading->file->rows.has_received = columns->at[COL_RECEIVED_S] >= 0;
     reading->file->has_scan = columns->at[COL_SCAN] >= 0;
     reading->file->has_epoch = columns->at[COL_EPOCH] >= 0;
+    reading->file->has_frames =
+        columns->at[COL_T_S] >= 0 && table_is_frame_number(columns->table, columns->at[COL_T_S]);
     reading->geodetic = rows_geodetic_open(columns->table, kind, reading->parameters);
     for (int i = 0; i < kind->num_columns; i++) {
         const struct rows_column *column = &kind->columns[i];
@@ -304,7 +306,8 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
 
 /*
  * Adds scans without plots for the frames before the newest row in which its sensor saw nothing;
- * the row stays the newest one.
+ * the row stays the newest one. They take the sensor's place and the sector from this row, the one
+ * after the gap.
  */
 static void add_frames_without_rows(struct reading *reading)
 {
@@ -326,6 +329,7 @@ static void add_frames_without_rows(struct reading *reading)
         last = &rows->list[rows->count - 1];
         last[-1] = last[0];
         last[-1].time_us = frame_gap_time_us(&gap, i);
+        last[-1].order = rows->count - 2;
         last[0] = newest;
         last[0].order = rows->count - 1;
     }

@@ -19,6 +19,7 @@ struct rows_file {
     bool keep_going;
     struct rows rows;
     bool has_scan, has_epoch; /* the file has these columns */
+    bool has_frames;          /* times are numbers of frames */
     uint64_t rows_skipped;
 };
 

@@ -36,7 +36,7 @@ static bool may_have_turns(const struct rows_file *file, const struct parameters
     const struct rows_kind *kind = file->rows.kind;
 
     return (kind == &rows_kind_plots || kind == &rows_kind_polar) && !file->has_scan &&
-           !file->rows.has_received && file->rows.count > 0 &&
+           !file->has_frames && !file->rows.has_received && file->rows.count > 0 &&
            antenna_turns_are_wanted(parameters) &&
            rows_is_cell_empty(rows_cells(
                &file->rows, file->rows.list)[rows_column_index(kind, COL_SECTOR_FROM_RAD)]);

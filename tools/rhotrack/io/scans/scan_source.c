@@ -139,7 +139,10 @@ static void number_row_by_turn(const struct scan_source *source, struct measurem
     }
 }
 
-/* Adds scans without plots for the frames before a row in which its sensor saw nothing. */
+/*
+ * Adds scans without plots for the frames before a row in which its sensor saw nothing. They take
+ * the sensor's place and the sector from this row, the one after the gap.
+ */
 static void add_frames_without_rows(struct scan_source *source, const struct measurement_row *row)
 {
     const struct frame_gap gap = frame_gaps_before_row(&source->gaps, &source->columns.in_file,
@@ -403,8 +406,8 @@ bool scan_source_next(struct scan_source *source, struct sensor_scan *scan)
 }
 
 /*
- * Whether turns may be searched for: the file can be read twice, and states neither numbers nor
- * sectors of scans.
+ * Whether turns may be searched for: the file can be read twice, and states neither numbers of
+ * frames or scans nor sectors.
  */
 static bool may_have_turns(const struct scan_source *source)
 {
@@ -412,7 +415,8 @@ static bool may_have_turns(const struct scan_source *source)
     struct stat status;
 
     return source->has_columns && source->options.kind == RECORD_PLOTS &&
-           antenna_turns_are_wanted(source->parameters) && at[COL_SCAN] < 0 &&
+           antenna_turns_are_wanted(source->parameters) &&
+           !table_is_frame_number(source->columns.in_file.table, at[COL_T_S]) && at[COL_SCAN] < 0 &&
            at[COL_RECEIVED_S] < 0 && at[COL_SECTOR_FROM_RAD] < 0 &&
            strcmp(source->path, "-") != 0 && stat(source->path, &status) == 0 &&
            S_ISREG(status.st_mode);

@@ -36,8 +36,7 @@ struct antenna_turns {
 
 bool antenna_turns_are_wanted(const struct parameters *parameters)
 {
-    return parameters->source[PARAMETER_SCAN_INTERVAL_S] <= SOURCE_DEFAULT &&
-           !parameters_has_value(parameters, PARAMETER_FRAME_RATE_HZ);
+    return parameters->source[PARAMETER_SCAN_INTERVAL_S] <= SOURCE_DEFAULT;
 }
 
 struct antenna_turns *antenna_turns_start(void)

@@ -15,8 +15,8 @@
 struct antenna_turns;
 
 /*
- * Whether turns are to be searched for: the user set neither scan_interval_s nor frame_rate_hz, by
- * which scans are known.
+ * Whether turns are to be searched for: the user did not set scan_interval_s, by which scans are
+ * known. They are known by numbers of frames, too, where a file has these as its times.
  */
 bool antenna_turns_are_wanted(const struct parameters *parameters);
 
