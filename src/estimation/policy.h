@@ -102,7 +102,7 @@
  * Speed, in standard deviations of the velocity along or across it, above which it gives the body's
  * heading. Half: bodies of targets that stop turn across the road. Twice: slow ones get it late.
  */
-#define HEADING_SIGMAS 5.0f
+#define HEADING_SIGMAS 4.0f
 /*
  * Actual variance of velocities' directions, as a share of what filters that expect manoeuvres
  * state. Half: widths are too large, as wrong headings count as width. Twice: they are too small.

@@ -29,13 +29,24 @@ check 'bodies at each step' test "$lists" -gt 300 -a "$(count bodies.lcm RHO_BOD
 check 'none of points' test "$(count points.lcm RHO_BODIES)" -eq 0
 check 'whose tracks are many more' test "$(count points.lcm RHO_TRACKS)" -gt "$lists"
 
-# 64 vehicles at once: as many as the node has tracks. It knows its radar. With 96 hypotheses
-# 14 000 units of work, completeness was .80 to .86, up and down.
-follows() { # least completeness of its tracks
-    ./bodies dense.lcm out.lcm radars=1 && "$program" convert out.lcm tracks.csv 2>/dev/null &&
-        "$program" evaluate dense/truth.csv tracks.csv >evaluation && cat evaluation &&
-        awk -v least="$1" '$1 == "completeness" {holds = $2 >= least} END {exit !holds}' evaluation
+# 64 vehicles at once: as many as the node has tracks. It knows its radar. The mean of three seeds,
+# as one goes up and down by some .03 with any change of the work.
+record_dense() {
+    local seed
+    for seed in 4 5 6; do
+        record "dense$seed" dense-traffic plots --seed "$seed" || return 1
+    done
 }
-check 'a record of 64 vehicles' record dense dense-traffic plots
+follows() { # least mean completeness of its tracks
+    local seed
+    for seed in 4 5 6; do
+        ./bodies "dense$seed.lcm" out.lcm radars=1 &&
+            "$program" convert out.lcm tracks.csv 2>/dev/null &&
+            "$program" evaluate "dense$seed/truth.csv" tracks.csv || return 1
+    done >evaluation
+    awk -v least="$1" '$1 == "completeness" {print; sum += $2; n++}
+        END {exit !(n == 3 && sum >= least * n)}' evaluation
+}
+check 'records of 64 vehicles' record_dense
 check 'the node follows them' follows 0.83
 finish

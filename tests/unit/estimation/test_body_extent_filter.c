@@ -257,14 +257,14 @@ static void expect_close(double is, double wanted)
     assert_true(fabs(is - wanted) <= 2e-5 * fabs(wanted));
 }
 
-static void a_heading_needs_a_speed_of_five_sigmas(void **state)
+static void a_heading_needs_a_speed_of_four_sigmas(void **state)
 {
     struct rho_body_filter body;
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f, (float)ASPECT);
-    set_velocity(&body, 4.9f, 0.0f, 1.0f);
+    set_velocity(&body, 3.9f, 0.0f, 1.0f);
     assert_int_equal(body.has_heading, 0);
-    set_velocity(&body, 5.1f, 0.0f, 1.0f);
+    set_velocity(&body, 4.1f, 0.0f, 1.0f);
     assert_int_equal(body.has_heading, 1);
 }
 
@@ -272,7 +272,7 @@ static void a_heading_needs_a_speed_of_five_sigmas(void **state)
 static void noise_of_one_who_stops_turns_no_body(void **state)
 {
     struct rho_body_filter body;
-    const float stopped_mps[2] = {0.0f, 4.0f}, covariance[3] = {0.01f, 0.0f, 1.0f};
+    const float stopped_mps[2] = {0.0f, 3.5f}, covariance[3] = {0.01f, 0.0f, 1.0f};
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f, (float)ASPECT);
     set_velocity(&body, 10.0f, 0.0f, 1.0f);
@@ -465,7 +465,7 @@ int main(void)
         cmocka_unit_test(the_heading_follows_velocities_that_are_well_known),
         cmocka_unit_test(rotating_a_covariance_to_body_axes_and_back_restores_it),
         cmocka_unit_test(the_width_is_at_least_a_sixteenth_of_the_length),
-        cmocka_unit_test(a_heading_needs_a_speed_of_five_sigmas),
+        cmocka_unit_test(a_heading_needs_a_speed_of_four_sigmas),
         cmocka_unit_test(noise_of_one_who_stops_turns_no_body),
         cmocka_unit_test(a_new_body_has_the_prior_length_and_a_third_of_it_as_width),
         cmocka_unit_test(every_update_agrees_with_the_derivation),
