@@ -42,7 +42,7 @@ static bool has_radar_figure(const struct calibrate_radar *of, int kind)
 
 static const char *reason_of_unknown(const struct calibrate_radar *of, int kind)
 {
-    return of->has_bodies && kind <= CALIBRATE_AZIMUTH
+    return of->has_bodies && (kind == CALIBRATE_RANGE || kind == CALIBRATE_AZIMUTH)
                ? "the extent of targets that give several plots hides it"
                : figure_kinds[kind].why_not;
 }
