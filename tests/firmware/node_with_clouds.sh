@@ -26,10 +26,7 @@ costs() { # largest mean, largest step, most partial steps
 
 fits() {
     local flash ram
-    read -r flash ram < <(arm-none-eabi-size -A "$images/m4/nodes/people.elf" | awk '
-        $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
-        $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
-        END {print flash + 0, ram + 0}')
+    read -r flash ram < <(memory_of people)
     echo "people: $flash bytes of flash, $ram of RAM"
     [ "$flash" -gt 0 ] && [ "$flash" -le "$flash_most" ] && [ "$ram" -le "$ram_most" ]
 }

@@ -56,6 +56,18 @@ replay_all() { # directory, command...
     (cd "$directory" && sha256sum ./*.lcm)
 }
 
+# memory_of NAME: flash and RAM of a node's image in bytes, stack included; `- -` where none is
+# shipped.
+memory_of() {
+    local image=$images/m4/nodes/$1.elf
+    [ "$1" != full ] || image=$images/m4/radar.elf
+    [ -e "$image" ] || { echo '- -'; return; }
+    arm-none-eabi-size -A "$image" | awk '
+        $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
+        $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
+        END {print flash + 0, ram + 0}'
+}
+
 # says_the_page SECTION FILE: tools/lab/MEASUREMENTS.md has the file's text in this section, where
 # the compiler is Debian 12's. LOAD=update writes it there.
 says_the_page() {

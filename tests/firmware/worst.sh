@@ -28,17 +28,6 @@ keeps_under() { # name, sky
     [ "$instructions" -le "${worst[$1]:-0}" ] || worst[$1]=$instructions
 }
 
-# Flash and RAM of a node's image in bytes, stack included; `- -` where none is shipped.
-memory_of() {
-    local image=$images/m4/nodes/$1.elf
-    [ "$1" != full ] || image=$images/m4/radar.elf
-    [ -e "$image" ] || { echo '- -'; return; }
-    arm-none-eabi-size -A "$image" | awk '
-        $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
-        $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
-        END {print flash + 0, ram + 0}'
-}
-
 # The section `worst` of the page.
 section() {
     local name flash ram
