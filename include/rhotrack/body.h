@@ -115,7 +115,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_body_max(struct rho_tracker *trac
  */
 int rho_tracker_has_body(const struct rho_tracker *tracker, unsigned track);
 
-/* Computes it. Returns 0, with *body unchanged, for a track without one, or NULL. Constant cost. */
+/* Computes a track's body. Returns 0, with *body unchanged, without one. Constant cost. */
 int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struct rho_body *body);
 
 RHO_END_C

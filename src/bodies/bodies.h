@@ -21,6 +21,7 @@ void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_bodies_ungroup. */
 void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
                        const struct rho_scan *scan);
+
 /* outline.c: where a look's plots of a body are expected */
 struct body_outline {
     float place_m[2], velocity_mps[3]; /* of its centre, at the track's time */
@@ -49,6 +50,7 @@ struct outline_fit {
     float rate_m2ps2;                    /* variance by the noise of rate and azimuth */
     float line_turn_m2ps2; /* the azimuth's part of it: its error turns the line of sight */
     float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
+    float track_m2ps2;     /* by rho_bodies_fit_plot: of the outline's velocity along it */
 };
 /* Fits a plot, whose noise is its own. A plot at the sensor has no range rate. */
 void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline *outline,
@@ -56,11 +58,8 @@ void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline 
 /* The same, with the noise of outline and plot: of the place, and of the body's width. */
 void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,
                          const struct rho_plot *plot, struct outline_fit *fit);
-/* Variance of a fit's range rate, where a turn of the body spreads the rates of its places. */
-float rho_bodies_rate_variance(const struct body_outline *outline, const struct outline_fit *fit,
-                               float turn_radps);
-/* Variance of the outline's velocity along the line of sight of a fit. */
-float rho_bodies_sight_variance(const struct body_outline *outline, const struct outline_fit *fit);
+/* Variance of such a fit's range rate, where a turn of the body spreads the rates of its places. */
+float rho_bodies_rate_variance(const struct outline_fit *fit, float turn_radps);
 /* Density of a plot's place and range rate by an outline, times its number of plots. */
 float rho_bodies_density(const struct rho_look *look, const struct body_outline *outline,
                          const struct rho_plot *plot);

@@ -156,20 +156,15 @@ void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline 
         fit->noise_m2[i] += outline->error_m2[i];
     }
     fit->noise_m2[2] += outline->across_m2;
-}
-
-float rho_bodies_sight_variance(const struct body_outline *outline, const struct outline_fit *fit)
-{
     const float *line = fit->sight_line, *p = outline->velocity_m2ps2;
-    return line[0] * line[0] * p[0] + 2.0f * line[0] * line[1] * p[1] + line[1] * line[1] * p[2];
+    fit->track_m2ps2 =
+        line[0] * line[0] * p[0] + 2.0f * line[0] * line[1] * p[1] + line[1] * line[1] * p[2];
 }
 
-float rho_bodies_rate_variance(const struct body_outline *outline, const struct outline_fit *fit,
-                               float turn_radps)
+float rho_bodies_rate_variance(const struct outline_fit *fit, float turn_radps)
 {
     const float apart_m2 = fit->dx_m * fit->dx_m + fit->dy_m * fit->dy_m;
-    return rho_bodies_sight_variance(outline, fit) + fit->rate_m2ps2 +
-           turn_radps * turn_radps * apart_m2;
+    return fit->track_m2ps2 + fit->rate_m2ps2 + turn_radps * turn_radps * apart_m2;
 }
 
 /* The normal distribution, within 0.01. */
@@ -193,7 +188,7 @@ float rho_bodies_density(const struct rho_look *look, const struct body_outline 
                         half_m;
     float square = fit.across_m * fit.across_m / fit.noise_m2[2], size = fit.noise_m2[2];
     if (fit.has_rate) {
-        const float variance = rho_bodies_rate_variance(outline, &fit, TURN_USUAL_RADPS);
+        const float variance = rho_bodies_rate_variance(&fit, TURN_USUAL_RADPS);
         square += fit.rate_mps * fit.rate_mps / variance;
         size *= variance;
     }

@@ -96,10 +96,9 @@ static int body_explains_plot(const struct rho_look *look, const struct body_out
         return 1;
     }
     const float slack_mps =
-        BODY_ERROR_SIGMAS *
-            (rho_sqrt(rho_bodies_sight_variance(outline, &fit)) + rho_sqrt(fit.rate_m2ps2)) +
+        BODY_ERROR_SIGMAS * (rho_sqrt(fit.track_m2ps2) + rho_sqrt(fit.rate_m2ps2)) +
         TURN_RADPS * rho_sqrt(fit.dx_m * fit.dx_m + fit.dy_m * fit.dy_m);
-    const float variance = rho_bodies_rate_variance(outline, &fit, TURN_RADPS);
+    const float variance = rho_bodies_rate_variance(&fit, TURN_RADPS);
     *misfit += fit.rate_mps * fit.rate_mps / variance + rho_log(variance);
     return rho_magnitude(fit.rate_mps) <= slack_mps;
 }

@@ -27,10 +27,9 @@ static int is_in_place(const struct body_outline *outline, const struct outline_
 }
 
 /* ln of the likelihoods' ratio of a range rate by a velocity that has changed at once to none. */
-static float plot_evidence(const struct body_outline *outline, const struct outline_fit *fit,
-                           float turn_mps)
+static float plot_evidence(const struct outline_fit *fit, float turn_mps)
 {
-    const float usual = rho_bodies_rate_variance(outline, fit, TURN_USUAL_RADPS),
+    const float usual = rho_bodies_rate_variance(fit, TURN_USUAL_RADPS),
                 loose = usual + turn_mps * turn_mps;
     const float nat = 0.5f * (fit->rate_mps * fit->rate_mps * (1.0f / usual - 1.0f / loose) -
                               rho_log(loose / usual));
@@ -80,7 +79,7 @@ static struct turn_evidence sum_plots(struct step *step, const struct body_outli
         if (!is_in_place(outline, &fit)) {
             continue;
         }
-        const float nat = plot_evidence(outline, &fit, turn_mps);
+        const float nat = plot_evidence(&fit, turn_mps);
         sum.nat += nat;
         sum.turned += nat > 0.0f ? 1.0f : 0.0f;
         sum.kept += nat > 0.0f ? 0.0f : 1.0f;

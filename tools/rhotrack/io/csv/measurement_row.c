@@ -271,8 +271,7 @@ static bool has_polar_noise(const struct row_reading *reading, int32_t sensor_id
 }
 
 /* Sets the sigmas of a Cartesian plot as those of the polar plot that it was made of. */
-static bool read_sigmas_along_line_of_sight(const struct row_reading *reading,
-                                            struct measurement_row *row)
+static bool read_sight_line_sigmas(const struct row_reading *reading, struct measurement_row *row)
 {
     struct rho_plot *plot = &row->plot, noise;
     const double x_m = (double)plot->x_m - (double)row->sensor.x_m,
@@ -308,7 +307,7 @@ static bool read_sigmas(const struct row_reading *reading, struct measurement_ro
         return false;
     }
     if (has_polar_noise(reading, id)) {
-        return read_sigmas_along_line_of_sight(reading, row);
+        return read_sight_line_sigmas(reading, row);
     }
     if (!read_sigma(reading, COL_SIGMA_M,
                     value_of_sensor(reading, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M),
