@@ -31,6 +31,7 @@ struct body_outline {
     float along_m2, across_m2; /* variances of a place on the body */
     float error_m2[3];         /* covariance of the predicted place: along, cross, across */
     float plots;               /* mean number of plots a look */
+    float rates_m2ps2;         /* variance of range rates by parts that move, as limbs */
 };
 /* Width of the widest body: short ones, as people, may be as wide as long. */
 float rho_bodies_widest_m(float longest_m);

@@ -47,6 +47,7 @@ struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsign
         .along_m2 = body->along_m2,
         .across_m2 = body->across_m2,
         .plots = body->plots_a_look,
+        .rates_m2ps2 = body->rates_m2ps2,
     };
     rho_body_rotate_covariance(body->cos_heading, body->sin_heading, place_m2, outline.error_m2);
     return outline;
@@ -144,8 +145,8 @@ void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline 
         per_m * plot->sigma_cross_m *
         (fit->sight_line[0] * velocity_mps[1] - fit->sight_line[1] * velocity_mps[0]);
     fit->line_turn_m2ps2 = turned_mps * turned_mps;
-    fit->rate_m2ps2 =
-        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + fit->line_turn_m2ps2;
+    fit->rate_m2ps2 = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps +
+                      fit->line_turn_m2ps2 + outline->rates_m2ps2;
 }
 
 void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,

@@ -41,11 +41,13 @@ static int may_be_one_target(const struct rho_look *look, struct rho_work *work,
     const float across_radps = look->tracker->config.v_max_mps / (3.0f * range_m);
     const float off_mps =
         rho_measurement_innovation_mps(look->sensor, a->range_rate_mps, b->range_rate_mps);
-    const float variance =
-        a->sigma_range_rate_mps * a->sigma_range_rate_mps +
-        b->sigma_range_rate_mps * b->sigma_range_rate_mps +
-        (TURN_USUAL_RADPS * TURN_USUAL_RADPS + across_radps * across_radps) * most_m * most_m;
-    return off_mps * off_mps <= BODY_ERROR_SIGMAS * BODY_ERROR_SIGMAS * variance;
+    const float error_m2ps2 = BODY_ERROR_SIGMAS * BODY_ERROR_SIGMAS *
+                              (a->sigma_range_rate_mps * a->sigma_range_rate_mps +
+                               b->sigma_range_rate_mps * b->sigma_range_rate_mps);
+    const float turn_m2ps2 = LOOSE_SIGMAS * LOOSE_SIGMAS *
+                             (TURN_USUAL_RADPS * TURN_USUAL_RADPS + across_radps * across_radps) *
+                             most_m * most_m;
+    return off_mps * off_mps <= error_m2ps2 + turn_m2ps2;
 }
 
 /* The outline of a track's body for gates: its length and heading may yet be other ones. */

@@ -40,6 +40,13 @@
 #define PRIOR_SHARE 0.5f
 #define PRIOR_LEAST_M 0.1f
 
+/*
+ * Most sigma of range rates by moving parts: of noise, or a share of the largest speed. Half: limbs
+ * have tracks. Twice: two who pass each other are one.
+ */
+#define LIMBS_SIGMAS 2.0f
+#define LIMBS_SHARE 0.03f
+
 /* body_split_evidence.c */
 
 /*
@@ -117,7 +124,7 @@
  * than one by chance. Half: halves of trucks stay two tracks. Twice: people side by side are one.
  */
 #define TWO_LOOK_NAT 0.1f
-#define TWO_PLOT_NAT 0.3f
+#define TWO_PLOT_NAT 0.2f
 /* Most that a look says, either way. Half: second tracks last. Twice: a stray ends known tracks. */
 #define TWO_LOOK_MOST_NAT 4.0f
 /* Evidence at which a track ends. Half: new neighbours are lost. Twice: second tracks are shown. */
