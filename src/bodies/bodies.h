@@ -39,7 +39,7 @@ float rho_bodies_widest_m(float longest_m);
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2]);
 struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsigned row);
 /* One body in place of two tracks' outlines, in the axes of the first, as the longest at most. */
-struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, unsigned row,
+struct body_outline rho_bodies_join_outlines(const struct rho_look *look, unsigned row,
                                              unsigned other_row, const struct body_outline *of,
                                              const struct body_outline *of_other);
 /* A plot relative to an outline's centre, at the plot's time. */

@@ -68,8 +68,7 @@ void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row)
 }
 
 /* Learns how much the range rates of a body's own plots differ by more than their noise. */
-static void learn_rates(const struct rho_tracker *tracker, struct rho_body_filter *body,
-                        const struct body_sums *own)
+static void learn_rates(struct rho_body_filter *body, const struct body_sums *own)
 {
     if (own->n < 2.0f) {
         return;
@@ -77,10 +76,8 @@ static void learn_rates(const struct rho_tracker *tracker, struct rho_body_filte
     const float noise_m2ps2 = (own->rate_noise_m2ps2 + own->line_turn_m2ps2) / own->n;
     const float seen_m2ps2 =
         (own->rate2 - own->rate * own->rate / own->n) / (own->n - 1.0f) - noise_m2ps2;
-    const float most_mps =
-        rho_larger(LIMBS_SIGMAS * rho_sqrt(noise_m2ps2), LIMBS_SHARE * tracker->config.v_max_mps);
     body->rates_m2ps2 += PLOTS_SHARE * (seen_m2ps2 - body->rates_m2ps2);
-    body->rates_m2ps2 = rho_larger(rho_smaller(body->rates_m2ps2, most_mps * most_mps), 0.0f);
+    body->rates_m2ps2 = rho_larger(body->rates_m2ps2, 0.0f);
 }
 
 void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
@@ -118,7 +115,7 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
         }
         body->plots_a_look += PLOTS_SHARE * ((float)seen.num_plots - body->plots_a_look);
         rho_body_add_plots(body, &seen);
-        learn_rates(tracker, body, &own);
+        learn_rates(body, &own);
         rho_bodies_add_doubt(tracker, look, &own, row);
     }
 }

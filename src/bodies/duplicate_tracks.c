@@ -31,13 +31,6 @@ static int differ_at_most(const struct rho_track *one, const struct rho_track *o
     return vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
 }
 
-/* True where two tracks may have one velocity; targets that pass each other have not. */
-static int move_alike(const struct rho_track *one, const struct rho_track *other)
-{
-    return differ_at_most(
-        one, other, BODY_ERROR_SIGMAS * (rho_track_sigma_mps(one) + rho_track_sigma_mps(other)));
-}
-
 /* The most, on an axis, by which a turn changes the velocity of a target. */
 static float turn_most_mps(const struct rho_tracker *tracker)
 {
@@ -80,8 +73,7 @@ static void compare_older(const struct rho_look *look, unsigned row, unsigned ol
         return;
     }
     const float apart_m = distance_m(look, older, row);
-    if (apart_m < *least_m && (move_alike(&tracker->tracks[older], &tracker->tracks[row]) ||
-                               may_replace(tracker, older, row))) {
+    if (apart_m < *least_m) {
         *least_m = apart_m;
         *nearest = older;
     }
@@ -144,8 +136,8 @@ static struct pair_evidence evidence_of_two(struct step *step, unsigned older, u
     const struct rho_groups *groups = &tracker->bodies.groups;
     const struct body_outline first = rho_bodies_outline_track(look, older),
                               second = rho_bodies_outline_track(look, younger),
-                              joint = rho_bodies_join_outlines(tracker, older, younger, &first,
-                                                               &second);
+                              joint =
+                                  rho_bodies_join_outlines(look, older, younger, &first, &second);
     /* two bodies fit the same plots better than one: that is no evidence, unless they are known */
     const float known = rho_larger(tracker->bodies.of[younger].two_nat, 0.0f) / TWO_MOST_NAT;
     const float plot_nat = TWO_PLOT_NAT * (1.0f - known);

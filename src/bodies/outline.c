@@ -53,10 +53,11 @@ struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsign
     return outline;
 }
 
-struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, unsigned row,
+struct body_outline rho_bodies_join_outlines(const struct rho_look *look, unsigned row,
                                              unsigned other_row, const struct body_outline *of,
                                              const struct body_outline *of_other)
 {
+    const struct rho_tracker *tracker = look->tracker;
     const struct rho_body_filter *body = &tracker->bodies.of[row];
     const struct body_outline one = *of, other = *of_other;
     const float longest_m = tracker->bodies.length_max_m;
@@ -82,6 +83,13 @@ struct body_outline rho_bodies_join_outlines(const struct rho_tracker *tracker, 
     }
     joint.place_m[0] += left * dx_m;
     joint.place_m[1] += left * dy_m;
+    /* what the velocities differ along the line of sight is spread of the one body's range rates */
+    const float x_m = joint.place_m[0] - (look->sensor ? look->sensor->x_m : 0.0f),
+                y_m = joint.place_m[1] - (look->sensor ? look->sensor->y_m : 0.0f);
+    const float off = x_m * (other.velocity_mps[0] - one.velocity_mps[0]) +
+                      y_m * (other.velocity_mps[1] - one.velocity_mps[1]);
+    joint.rates_m2ps2 = share * one.rates_m2ps2 + left * other.rates_m2ps2 +
+                        share * left * off * off / (x_m * x_m + y_m * y_m + LINE_LEAST_M2);
     joint.along_m2 =
         rho_smaller(share * one.along_m2 + left * (turned_m2[0] + share * along_m * along_m),
                     longest_m * longest_m / 12.0f);
@@ -145,8 +153,10 @@ void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline 
         per_m * plot->sigma_cross_m *
         (fit->sight_line[0] * velocity_mps[1] - fit->sight_line[1] * velocity_mps[0]);
     fit->line_turn_m2ps2 = turned_mps * turned_mps;
+    const float most_mps = rho_larger(LIMBS_SIGMAS * plot->sigma_range_rate_mps,
+                                      LIMBS_SHARE * look->tracker->config.v_max_mps);
     fit->rate_m2ps2 = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps +
-                      fit->line_turn_m2ps2 + outline->rates_m2ps2;
+                      fit->line_turn_m2ps2 + rho_smaller(outline->rates_m2ps2, most_mps * most_mps);
 }
 
 void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,
