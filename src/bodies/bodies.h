@@ -33,8 +33,10 @@ struct body_outline {
     float plots;               /* mean number of plots a look */
     float rates_m2ps2;         /* variance of range rates by parts that move, as limbs */
 };
-/* Width of the widest body: short ones, as people, may be as wide as long. */
-float rho_bodies_widest_m(float longest_m);
+/* Width of the widest body of a length: short ones, as people, may be as wide as long. */
+float rho_bodies_widest_m(float longest_m, float length_m);
+/* That of a track's body of a length; across an unknown heading it is the longest's length. */
+float rho_bodies_width_most_m(const struct rho_tracker *tracker, unsigned row, float length_m);
 /* The most that a target moves between a look's time and one of its plots, if this fast. */
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2]);
 struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsigned row);

@@ -12,7 +12,8 @@ void rho_bodies_begin(struct rho_tracker *tracker, unsigned row)
 {
     const float longest_m = tracker->bodies.length_max_m;
     rho_body_filter_init(&tracker->bodies.of[row], tracker->tracks[row].track_id,
-                         rho_bodies_prior_m2(tracker), longest_m / rho_bodies_widest_m(longest_m));
+                         rho_bodies_prior_m2(tracker),
+                         longest_m / rho_bodies_widest_m(longest_m, longest_m));
 }
 
 float rho_bodies_prior_m2(const struct rho_tracker *tracker)

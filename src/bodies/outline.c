@@ -17,9 +17,19 @@
 #include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
 
-float rho_bodies_widest_m(float longest_m)
+float rho_bodies_widest_m(float longest_m, float length_m)
 {
-    return rho_larger(WIDEST_SHARE * longest_m, rho_smaller(longest_m, ROUND_MOST_M));
+    length_m = rho_larger(rho_smaller(length_m, longest_m), LENGTH_LEAST_SHARE * longest_m);
+    return rho_larger(WIDEST_SHARE * length_m, rho_smaller(longest_m, ROUND_MOST_M));
+}
+
+float rho_bodies_width_most_m(const struct rho_tracker *tracker, unsigned row, float length_m)
+{
+    const struct rho_body_filter *body = &tracker->bodies.of[row];
+    const float longest_m = tracker->bodies.length_max_m;
+    return body->has_heading && body->heading_sigma_rad < HEADING_KNOWN_RAD
+               ? rho_bodies_widest_m(longest_m, length_m)
+               : longest_m;
 }
 
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2])
@@ -58,12 +68,8 @@ struct body_outline rho_bodies_join_outlines(const struct rho_look *look, unsign
                                              const struct body_outline *of_other)
 {
     const struct rho_tracker *tracker = look->tracker;
-    const struct rho_body_filter *body = &tracker->bodies.of[row];
     const struct body_outline one = *of, other = *of_other;
     const float longest_m = tracker->bodies.length_max_m;
-    const float widest_m = body->has_heading && body->heading_sigma_rad < HEADING_KNOWN_RAD
-                               ? rho_bodies_widest_m(longest_m)
-                               : longest_m;
     const float left = other.plots / (one.plots + other.plots), share = 1.0f - left;
     const float dx_m = other.place_m[0] - one.place_m[0], dy_m = other.place_m[1] - one.place_m[1];
     const float along_m = one.cos_heading * dx_m + one.sin_heading * dy_m,
@@ -93,6 +99,7 @@ struct body_outline rho_bodies_join_outlines(const struct rho_look *look, unsign
     joint.along_m2 =
         rho_smaller(share * one.along_m2 + left * (turned_m2[0] + share * along_m * along_m),
                     longest_m * longest_m / 12.0f);
+    const float widest_m = rho_bodies_width_most_m(tracker, row, rho_sqrt(12.0f * joint.along_m2));
     joint.across_m2 =
         rho_smaller(share * one.across_m2 + left * (turned_m2[2] + share * across_m * across_m),
                     widest_m * widest_m / 12.0f);

@@ -48,9 +48,10 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
         rate_m2ps2 = rho_larger(rate_m2ps2, at.rate_m2ps2);
     }
     const float middle = 0.5f * (least + most);
-    const float parted = why == RHO_BODY_TOO_LONG   ? PARTED_SHARE * longest_m
-                         : why == RHO_BODY_TOO_WIDE ? PARTED_SHARE * rho_bodies_widest_m(longest_m)
-                                                    : PARTED_SIGMAS * rho_sqrt(rate_m2ps2);
+    const float parted = why == RHO_BODY_TOO_LONG ? PARTED_SHARE * longest_m
+                         : why == RHO_BODY_TOO_WIDE
+                             ? PARTED_SHARE * rho_bodies_widest_m(longest_m, 0.0f)
+                             : PARTED_SIGMAS * rho_sqrt(rate_m2ps2);
     if (!(most - least > parted)) {
         return 0;
     }
@@ -93,11 +94,16 @@ static enum rho_status start_from_side(const struct rho_look *look, const struct
                                     track->hits, &look->model, track->score_mnat);
 }
 
-static void restart_body_filter(struct rho_tracker *tracker, unsigned row)
+/* Begins the body of one side, headed as the whole was: of one that stands, no velocity tells. */
+static void restart_body_filter(struct rho_tracker *tracker, unsigned row,
+                                const struct rho_body_filter *whole)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
+    const float ahead[2] = {whole->cos_heading, whole->sin_heading};
+    const float square = whole->heading_sigma_rad * whole->heading_sigma_rad;
+    const float covariance[3] = {square, 0.0f, square};
     rho_bodies_begin(tracker, row);
-    rho_bodies_set_heading(tracker, row);
+    rho_body_set_heading_if_moving(body, ahead, covariance);
     body->two_nat = SPLIT_NAT;
 }
 
@@ -135,7 +141,6 @@ static int split_track(struct step *step, unsigned row, const struct body_side s
 void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
-    const float widest_m = rho_bodies_widest_m(tracker->bodies.length_max_m);
     for (unsigned row = 0; step->look.teaches && row < tracker->bodies.count; row++) {
         const struct rho_body_filter *body = &tracker->bodies.of[row];
         const unsigned num_tracks = tracker->num_tracks;
@@ -145,18 +150,21 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
             continue;
         }
         enum rho_body_split why = rho_bodies_split_reason(tracker, row);
-        if (rho_bodies_is_settled(tracker, row) && 12.0f * body->across_m2 > widest_m * widest_m) {
+        if (rho_bodies_is_settled(tracker, row)) {
             rho_body_shape(body, &shape);
+            const float widest_m = rho_bodies_width_most_m(
+                tracker, row, shape.length_m + SURE_SIGMAS * shape.sigma_length_m);
             if (shape.width_m - SURE_SIGMAS * shape.sigma_width_m > widest_m) {
                 why = RHO_BODY_TOO_WIDE;
             }
         }
         if (why != RHO_BODY_ONE && divide_plots(&step->look, scan, row, why, sides) &&
             split_track(step, row, sides)) {
-            restart_body_filter(tracker, row);
+            const struct rho_body_filter whole = *body;
+            restart_body_filter(tracker, row, &whole);
             if (tracker->num_tracks > num_tracks) {
                 rho_bodies_align(tracker);
-                restart_body_filter(tracker, num_tracks);
+                restart_body_filter(tracker, num_tracks, &whole);
             }
         }
     }
