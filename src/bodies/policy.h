@@ -89,7 +89,7 @@
  * Sigma of a heading below which the width of a body is across it, and not in any direction. Half:
  * cars abreast are one for longer. Twice: new trucks, with their first heading, are two.
  */
-#define HEADING_KNOWN_RAD 0.2f
+#define HEADING_KNOWN_RAD 0.1f
 /* Least variance of a place, m^2, against a division by 0. Half or twice: nothing changes. */
 #define LINE_LEAST_M2 1e-6f
 /*
