@@ -82,7 +82,7 @@
  * length: people are round. Half: lorries are split. Twice: cars abreast keep one track.
  */
 #define WIDEST_SHARE 0.3f
-/* The least length by which it is judged, over the longest. Half: ships seen from ahead are split. */
+/* Least length that it is a share of, over the longest. Half: ships seen from ahead are split. */
 #define LENGTH_LEAST_SHARE 0.5f
 #define ROUND_MOST_M 2.5f
 /*
