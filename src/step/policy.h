@@ -14,7 +14,7 @@
  * The same of a body's width, which errors of headings correlate. Half: trucks seen aslant are
  * split. Twice: cars abreast keep one track.
  */
-#define WIDTH_SIGMAS 4.0f
+#define WIDTH_SIGMAS 3.0f
 
 /* begin.c */
 

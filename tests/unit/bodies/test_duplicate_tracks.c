@@ -138,7 +138,7 @@ static void what_is_known_to_be_two_stays_two(void **state)
     (void)state;
     for (int is_known = 0; is_known < 2; is_known++) {
         unsigned ended = 0;
-        make_two_tracks(5.5f, 0.0f, 1000);
+        make_two_tracks(4.3f, 0.0f, 1000);
         tracker.bodies.of[1].two_nat = is_known ? 30.0f : 0.0f;
         for (unsigned look = 1; look <= 1000 && !ended; look++) {
             see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);

@@ -118,18 +118,19 @@ static void plots_within_the_longest_length_form_one_group(void **state)
 }
 
 /*
- * Range rates may differ by four sigmas: root(1 + 1 + (0.1^2 + 0.02^2) d^2) m/s, with d across the
+ * Range rates may differ by four sigmas of their noise, 1 m/s each, and by two of a turn and of the
+ * speed across the line of sight: root(16 (1 + 1) + 4 (0.1^2 + 0.02^2) d^2) m/s, with d across the
  * line of sight at most 0.41 of the longest, or the noise of both places.
  */
 static void plots_of_different_range_rates_form_two_groups(void **state)
 {
     (void)state;
-    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, 5.85), 1);
-    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, 5.95), 2);
-    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, -5.85), 1);
-    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, -5.95), 2);
-    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 1.0, 5.69), 1);
-    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 1.0, 5.74), 2);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, 5.7), 1);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, 5.74), 2);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, -5.7), 1);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, -5.74), 2);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 1.0, 5.65), 1);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 1.0, 5.69), 2);
     assert_int_equal(count_groups_of_two_plots(0, 5.0, 99.0), 1);
 }
 

@@ -310,14 +310,14 @@ static int is_split(float width_m, float sigma_m, float of_plots)
     return report.num_tracks == 2;
 }
 
-/* The limit is 0.3 of the longest body: 4.5 m. */
+/* The limit is 0.3 of the body's length, of 9.7 m and its error: about 3.1 m. */
 static void only_surely_too_wide_bodies_are_split(void **state)
 {
     (void)state;
     assert_true(is_split(5.5f, 0.3f, 200.0f));
-    assert_false(is_split(5.5f, 0.8f, 200.0f));
-    assert_false(is_split(4.3f, 0.1f, 200.0f));
-    assert_true(is_split(5.0f, 0.1f, 200.0f));
+    assert_false(is_split(5.5f, 0.9f, 200.0f));
+    assert_false(is_split(3.0f, 0.1f, 200.0f));
+    assert_true(is_split(3.6f, 0.1f, 200.0f));
     assert_false(is_split(5.5f, 0.3f, 80.0f));
     assert_true(is_split(5.5f, 0.3f, 130.0f));
 }
