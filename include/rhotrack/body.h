@@ -84,7 +84,6 @@ struct rho_body_filter {
     float heading_sigma_rad;
     float plots;         /* plots that the extent was estimated from */
     float plots_a_look;  /* mean number of plots in a look that has any, smoothed */
-    float rates_m2ps2;   /* variance of range rates beyond their noise, as by limbs; smoothed */
     float two_nat;       /* ln evidence that its target is not that of an older track beside it */
     uint16_t most_plots; /* largest number of plots in one scan */
     uint8_t has_heading;

@@ -68,19 +68,6 @@ void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row)
     rho_body_set_heading_if_moving(&tracker->bodies.of[row], &kalman->state[RHO_VX], velocity);
 }
 
-/* Learns how much the range rates of a body's own plots differ by more than their noise. */
-static void learn_rates(struct rho_body_filter *body, const struct body_sums *own)
-{
-    if (own->n < 2.0f) {
-        return;
-    }
-    const float noise_m2ps2 = (own->rate_noise_m2ps2 + own->line_turn_m2ps2) / own->n;
-    const float seen_m2ps2 =
-        (own->rate2 - own->rate * own->rate / own->n) / (own->n - 1.0f) - noise_m2ps2;
-    body->rates_m2ps2 += PLOTS_SHARE * (seen_m2ps2 - body->rates_m2ps2);
-    body->rates_m2ps2 = rho_larger(body->rates_m2ps2, 0.0f);
-}
-
 void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
                        const struct rho_scan *scan)
 {
@@ -116,7 +103,6 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
         }
         body->plots_a_look += PLOTS_SHARE * ((float)seen.num_plots - body->plots_a_look);
         rho_body_add_plots(body, &seen);
-        learn_rates(body, &own);
         rho_bodies_add_doubt(tracker, look, &own, row);
     }
 }

@@ -57,7 +57,8 @@ struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsign
         .along_m2 = body->along_m2,
         .across_m2 = body->across_m2,
         .plots = body->plots_a_look,
-        .rates_m2ps2 = body->rates_m2ps2,
+        .rates_m2ps2 = rho_larger(body->doubt.rates_m2ps2 - body->doubt.rate_noise_m2ps2, 0.0f) /
+                       rho_larger(body->doubt.plots_beyond_one, 1.0f),
     };
     rho_body_rotate_covariance(body->cos_heading, body->sin_heading, place_m2, outline.error_m2);
     return outline;
