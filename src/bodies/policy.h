@@ -41,11 +41,10 @@
 #define PRIOR_LEAST_M 0.1f
 
 /*
- * Most sigma of range rates by moving parts: of noise, or a share of the largest speed. Half: limbs
- * have tracks. Twice: two who pass each other are one.
+ * Most sigma of range rates by parts that move, in sigmas of their noise. Half: limbs have tracks.
+ * Twice: two who pass each other are one.
  */
 #define LIMBS_SIGMAS 2.0f
-#define LIMBS_SHARE 0.03f
 
 /* body_split_evidence.c */
 
