@@ -27,9 +27,8 @@ float rho_bodies_width_most_m(const struct rho_tracker *tracker, unsigned row, f
 {
     const struct rho_body_filter *body = &tracker->bodies.of[row];
     const float longest_m = tracker->bodies.length_max_m;
-    return body->has_heading && body->heading_sigma_rad < HEADING_KNOWN_RAD
-               ? rho_bodies_widest_m(longest_m, length_m)
-               : longest_m;
+    const float turned_m = LOOSE_SIGMAS * body->heading_sigma_rad * length_m;
+    return rho_smaller(rho_bodies_widest_m(longest_m, length_m) + turned_m, longest_m);
 }
 
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2])

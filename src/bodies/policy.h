@@ -84,11 +84,6 @@
 /* Least length that it is a share of, over the longest. Half: ships seen from ahead are split. */
 #define LENGTH_LEAST_SHARE 0.5f
 #define ROUND_MOST_M 2.5f
-/*
- * Sigma of a heading below which the width of a body is across it, and not in any direction. Half:
- * cars abreast are one for longer. Twice: new trucks, with their first heading, are two.
- */
-#define HEADING_KNOWN_RAD 0.1f
 /* Least variance of a place, m^2, against a division by 0. Half or twice: nothing changes. */
 #define LINE_LEAST_M2 1e-6f
 /*
