@@ -6,15 +6,10 @@
 /* Several files */
 
 /*
- * Sigmas by which a speed is surely above its limit. Half: noise of a few plots ends fast tracks.
- * Twice: false tracks stay fast.
+ * Sigmas by which a speed or width is surely above its limit. Half: noise of a few plots ends fast
+ * tracks and splits bodies. Twice: false tracks stay fast, and cars abreast keep one track.
  */
 #define SURE_SIGMAS 2.0f
-/*
- * The same of a body's width, which errors of headings correlate. Half: trucks seen aslant are
- * split. Twice: cars abreast keep one track.
- */
-#define WIDTH_SIGMAS 3.0f
 
 /* begin.c */
 

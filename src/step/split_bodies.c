@@ -153,8 +153,8 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
         if (rho_bodies_is_settled(tracker, row)) {
             rho_body_shape(body, &shape);
             const float widest_m = rho_bodies_width_most_m(
-                tracker, row, shape.length_m + WIDTH_SIGMAS * shape.sigma_length_m);
-            if (shape.width_m - WIDTH_SIGMAS * shape.sigma_width_m > widest_m) {
+                tracker, row, shape.length_m + SURE_SIGMAS * shape.sigma_length_m);
+            if (shape.width_m - SURE_SIGMAS * shape.sigma_width_m > widest_m) {
                 why = RHO_BODY_TOO_WIDE;
             }
         }

@@ -315,7 +315,7 @@ static void only_surely_too_wide_bodies_are_split(void **state)
 {
     (void)state;
     assert_true(is_split(5.5f, 0.3f, 200.0f));
-    assert_false(is_split(5.5f, 0.9f, 200.0f));
+    assert_false(is_split(5.5f, 1.3f, 200.0f));
     assert_false(is_split(3.0f, 0.1f, 200.0f));
     assert_true(is_split(3.6f, 0.1f, 200.0f));
     assert_false(is_split(5.5f, 0.3f, 80.0f));
