@@ -40,12 +40,6 @@
 #define PRIOR_SHARE 0.5f
 #define PRIOR_LEAST_M 0.1f
 
-/*
- * Most sigma of range rates by parts that move, in sigmas of their noise. Half: limbs have tracks.
- * Twice: two who pass each other are one.
- */
-#define LIMBS_SIGMAS 2.0f
-
 /* body_split_evidence.c */
 
 /*
@@ -77,13 +71,18 @@
 /* outline.c */
 
 /*
- * Width of the widest body: a share of the longest, but this many m at least, and at most the
- * length: people are round. Half: lorries are split. Twice: cars abreast keep one track.
+ * Width of the widest body: a share of its length, but this many m at least, and at most the
+ * longest: people are round. Half: lorries are split. Twice: cars abreast keep one track.
  */
 #define WIDEST_SHARE 0.3f
+#define ROUND_MOST_M 2.5f
 /* Least length that it is a share of, over the longest. Half: ships seen from ahead are split. */
 #define LENGTH_LEAST_SHARE 0.5f
-#define ROUND_MOST_M 2.5f
+/*
+ * Most sigma of range rates by parts that move, in sigmas of their noise. Half: limbs have tracks.
+ * Twice: two who pass each other are one.
+ */
+#define LIMBS_SIGMAS 2.0f
 /* Least variance of a place, m^2, against a division by 0. Half or twice: nothing changes. */
 #define LINE_LEAST_M2 1e-6f
 /*

@@ -141,6 +141,7 @@ static int split_track(struct step *step, unsigned row, const struct body_side s
 void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
+    const float least_m = rho_bodies_widest_m(tracker->bodies.length_max_m, 0.0f);
     for (unsigned row = 0; step->look.teaches && row < tracker->bodies.count; row++) {
         const struct rho_body_filter *body = &tracker->bodies.of[row];
         const unsigned num_tracks = tracker->num_tracks;
@@ -150,7 +151,7 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
             continue;
         }
         enum rho_body_split why = rho_bodies_split_reason(tracker, row);
-        if (rho_bodies_is_settled(tracker, row)) {
+        if (rho_bodies_is_settled(tracker, row) && 12.0f * body->across_m2 > least_m * least_m) {
             rho_body_shape(body, &shape);
             const float widest_m = rho_bodies_width_most_m(
                 tracker, row, shape.length_m + SURE_SIGMAS * shape.sigma_length_m);
