@@ -113,6 +113,21 @@ static void cars_apart_stay_two(void **state)
     assert_int_equal(looks_until_one_ends((const float[2]){10.0f, 13.0f}), 0);
 }
 
+/*
+ * A person's limbs have range rates of their own, and each of two tracks of him takes those that
+ * suit it: as far apart as twice the noise explains they are one.
+ */
+static void tracks_of_one_body_may_share_its_range_rates(void **state)
+{
+    (void)state;
+    for (int is_faster = 0; is_faster <= 1; is_faster++) {
+        const float rates_mps[2] = {10.0f, is_faster ? 11.5f : 10.3f};
+        make_two_tracks(0.2f, 0.0f, 1000);
+        tracker.tracks[1].kalman.state[RHO_VX] = rates_mps[1];
+        assert_int_equal(looks_until_one_ends(rates_mps) > 0, !is_faster);
+    }
+}
+
 /* Long apart, and no plot is contended for: the pair is not asked; else it is. */
 static void who_was_long_apart_is_asked_where_plots_are_contested(void **state)
 {
@@ -347,6 +362,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_younger_of_two_tracks_of_one_car_ends),
         cmocka_unit_test(cars_apart_stay_two),
+        cmocka_unit_test(tracks_of_one_body_may_share_its_range_rates),
         cmocka_unit_test(who_was_long_apart_is_asked_where_plots_are_contested),
         cmocka_unit_test(what_is_known_to_be_two_stays_two),
         cmocka_unit_test(a_track_apart_becomes_known),

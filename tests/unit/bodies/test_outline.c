@@ -97,11 +97,79 @@ static void range_rates_that_were_not_measured_are_none(void **state)
     assert_true(fit.rate_mps == 0.0f && fit.rate_m2ps2 == 0.0f && fit.sight_line[0] == 0.0f);
 }
 
+/* Limbs spread range rates: what was learned of them adds, up to twice the noise of the rate. */
+static void limbs_spread_range_rates_up_to_twice_their_noise(void **state)
+{
+    struct body_outline outline = {.velocity_mps = {1.0f, 0.0f, 0.0f}, .cos_heading = 1.0f};
+    struct outline_fit fit;
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    num_plots = 0;
+    struct rho_plot *plot = add_plot(100.0, 0.0, 1.0);
+    plot->sigma_range_rate_mps = 0.1f;
+    begin_look(0, 1.0f);
+    scan.measures = RHO_MEASURES_RANGE_RATE;
+    for (int percent = 0; percent <= 800; percent += 50) {
+        outline.rates_m2ps2 = 1e-4f * (float)percent;
+        rho_bodies_see_plot(&at.look, &outline, plot, &fit);
+        expect_close(fit.rate_m2ps2, 0.01f + 1e-4f * (float)(percent < 400 ? percent : 400), 1e-6f);
+    }
+}
+
+/* One body in place of two that move apart along the line of sight: its range rates have both. */
+static void one_body_for_two_has_the_range_rates_of_both(void **state)
+{
+    const struct body_outline one = {.place_m = {60.0f, 80.0f},
+                                     .velocity_mps = {3.0f, 4.0f},
+                                     .cos_heading = 1.0f,
+                                     .along_m2 = 1.0f,
+                                     .across_m2 = 1.0f,
+                                     .plots = 6.0f,
+                                     .rates_m2ps2 = 0.04f};
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    assert_int_equal(rho_tracker_set_body_max(&tracker, 10.0f), RHO_OK);
+    memset(&tracker.bodies.of[0], 0, 2 * sizeof *tracker.bodies.of);
+    begin_look(0, 1.0f);
+    at.look.sensor = NULL;
+    for (int is_along = 0; is_along <= 1; is_along++) {
+        struct body_outline other = one;
+        other.plots = 2.0f;                              /* a quarter of all */
+        other.velocity_mps[0] += is_along ? 0.6f : 0.8f; /* 1 m/s along the line, or across it */
+        other.velocity_mps[1] += is_along ? 0.8f : -0.6f;
+        const struct body_outline joint = rho_bodies_join_outlines(&at.look, 0, 1, &one, &other);
+        expect_close(joint.rates_m2ps2, 0.04f + (is_along ? 0.25f * 0.75f : 0.0f), 1e-6f);
+    }
+}
+
+/* The widest body: of its length, no less than half of the longest's; people are round. */
+static void the_widest_body_follows_its_length(void **state)
+{
+    (void)state;
+    expect_close(rho_bodies_widest_m(20.0f, 12.0f), 3.6f, 0.0f);
+    expect_close(rho_bodies_widest_m(20.0f, 5.0f), 3.0f, 0.0f); /* as one of 10 m */
+    expect_close(rho_bodies_widest_m(20.0f, 99.0f), 6.0f, 0.0f);
+    expect_close(rho_bodies_widest_m(6.0f, 4.4f), 2.5f, 0.0f);
+    expect_close(rho_bodies_widest_m(0.8f, 0.4f), 0.8f, 0.0f);
+    begin_tracker();
+    assert_int_equal(rho_tracker_set_body_max(&tracker, 20.0f), RHO_OK);
+    /* an error of the heading shows length as width: two sigmas of it, at most the longest */
+    tracker.bodies.of[0].heading_sigma_rad = 0.1f;
+    expect_close(rho_bodies_width_most_m(&tracker, 0, 12.0f), 3.6f + 2.4f, 0.0f);
+    tracker.bodies.of[0].heading_sigma_rad = 3.14f;
+    expect_close(rho_bodies_width_most_m(&tracker, 0, 12.0f), 20.0f, 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plot_is_seen_as_the_measurement_has_it),
         cmocka_unit_test(range_rates_that_were_not_measured_are_none),
+        cmocka_unit_test(limbs_spread_range_rates_up_to_twice_their_noise),
+        cmocka_unit_test(one_body_for_two_has_the_range_rates_of_both),
+        cmocka_unit_test(the_widest_body_follows_its_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -223,6 +223,29 @@ static void two_cars_in_a_row_are_split_by_their_length(void **state)
     assert_int_equal(runs, 10);
 }
 
+/* A truck and a car beside it, at one speed: together they are wider than any body so long. */
+static void a_car_beside_a_truck_has_its_own_track(void **state)
+{
+    unsigned runs = 0, looks_of_one = 0;
+    (void)state;
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        struct body truck = {16.0, 6.0, 16.0, 0.0, 0.0}, car = {14.0, 6.0 + LANE_M, 16.0, 0.0, 0.0};
+        start_tracker_on_road(seed);
+        for (int k = 0; k < 120; k++) {
+            see_truck(&truck, 0.0);
+            see_car(&car);
+            drive_one_step(&truck);
+            drive_one_step(&car);
+            step_scan_with_rates(k);
+            looks_of_one += report.num_tracks == 1;
+        }
+        runs += report.num_tracks == 2;
+    }
+    print_message("two in %u of 10, after one in %.1f looks\n", runs, 0.1 * looks_of_one);
+    assert_true(runs >= 9);
+    assert_true(looks_of_one <= 10 * 40);
+}
+
 static unsigned count_runs_of_one_track(double turn_radps, double wheels_mps)
 {
     unsigned runs = 0;
@@ -329,6 +352,7 @@ int main(void)
         cmocka_unit_test(a_truck_keeps_one_track),
         cmocka_unit_test(range_rates_split_an_overtaking_car),
         cmocka_unit_test(two_cars_in_a_row_are_split_by_their_length),
+        cmocka_unit_test(a_car_beside_a_truck_has_its_own_track),
         cmocka_unit_test(a_turning_truck_keeps_one_track),
         cmocka_unit_test(range_rates_of_wheels_do_not_split_a_truck),
         cmocka_unit_test(a_car_that_passes_near_the_radar_keeps_one_track),
