@@ -231,6 +231,7 @@ static void a_car_beside_a_truck_has_its_own_track(void **state)
     for (uint64_t seed = 1; seed <= 10; seed++) {
         struct body truck = {16.0, 6.0, 16.0, 0.0, 0.0}, car = {14.0, 6.0 + LANE_M, 16.0, 0.0, 0.0};
         start_tracker_on_road(seed);
+        assert_int_equal(rho_tracker_set_body_max(&tracker, 20.0f), RHO_OK);
         for (int k = 0; k < 120; k++) {
             see_truck(&truck, 0.0);
             see_car(&car);
