@@ -161,9 +161,8 @@ void rho_bodies_see_plot(const struct rho_look *look, const struct body_outline 
         (fit->sight_line[0] * velocity_mps[1] - fit->sight_line[1] * velocity_mps[0]);
     fit->line_turn_m2ps2 = turned_mps * turned_mps;
     const float noise_m2ps2 = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
-    fit->rate_m2ps2 =
-        noise_m2ps2 + fit->line_turn_m2ps2 +
-        rho_smaller(outline->rates_m2ps2, LIMBS_SIGMAS * LIMBS_SIGMAS * noise_m2ps2);
+    fit->rate_m2ps2 = noise_m2ps2 + fit->line_turn_m2ps2 +
+                      rho_smaller(outline->rates_m2ps2, LIMBS_SIGMAS * LIMBS_SIGMAS * noise_m2ps2);
 }
 
 void rho_bodies_fit_plot(const struct rho_look *look, const struct body_outline *outline,
