@@ -89,20 +89,24 @@ static int body_explains_plot(const struct rho_look *look, const struct body_out
     const float along_m2 = outline->along_m2 + fit.noise_m2[0], across_m2 = fit.noise_m2[2];
     const float far = fit.along_m * fit.along_m / along_m2,
                 wide = fit.across_m * fit.across_m / across_m2;
-    *misfit = far + wide + rho_log(along_m2 * across_m2);
+    float square = far + wide, size = along_m2 * across_m2;
     if (!(far <= BODY_GATE_SIGMAS * BODY_GATE_SIGMAS &&
           wide <= BODY_GATE_SIGMAS * BODY_GATE_SIGMAS)) {
         return 0;
     }
-    if (!fit.has_rate) {
-        return 1;
+    if (fit.has_rate) {
+        const float slack_mps =
+            BODY_ERROR_SIGMAS * (rho_sqrt(fit.track_m2ps2) + rho_sqrt(fit.rate_m2ps2)) +
+            TURN_RADPS * rho_sqrt(fit.dx_m * fit.dx_m + fit.dy_m * fit.dy_m);
+        const float variance = rho_bodies_rate_variance(&fit, TURN_RADPS);
+        if (!(rho_magnitude(fit.rate_mps) <= slack_mps)) {
+            return 0;
+        }
+        square += fit.rate_mps * fit.rate_mps / variance;
+        size *= variance;
     }
-    const float slack_mps =
-        BODY_ERROR_SIGMAS * (rho_sqrt(fit.track_m2ps2) + rho_sqrt(fit.rate_m2ps2)) +
-        TURN_RADPS * rho_sqrt(fit.dx_m * fit.dx_m + fit.dy_m * fit.dy_m);
-    const float variance = rho_bodies_rate_variance(&fit, TURN_RADPS);
-    *misfit += fit.rate_mps * fit.rate_mps / variance + rho_log(variance);
-    return rho_magnitude(fit.rate_mps) <= slack_mps;
+    *misfit = square + rho_log(size);
+    return 1;
 }
 
 /* Gives each plot to the track whose body explains it best. */
