@@ -18,8 +18,8 @@
  * Targets Using Random Matrices, IEEE Transactions on Signal Processing 59 (2011), 1409-1420.
  *
  * Two targets that are near each other from their first plots on are taken for one body, until it
- * is surely wider than the widest body (0.3 of the longest, but 2.5 m at least, and no more than
- * the length), or longer than the longest body, or its range rates show parts that move apart
+ * is surely wider than the widest body (0.3 of its length or of half the longest, but 2.5 m at
+ * least), or longer than the longest body, or its range rates show parts that move apart
  * (src/step/split_bodies.c, src/bodies/body_split_evidence.c). Whether two tracks are of one target
  * or of two is told by likelihoods: of the look's plots by two bodies, over those by one
  * (src/bodies/duplicate_tracks.c). A body that turns at once keeps its plots where all their range
@@ -50,7 +50,7 @@ struct rho_body_side {
     float prior_share; /* weight of the prior in the mean, 0 .. 1 */
 };
 
-/* Evidence by looks with several plots that a body is two targets; it fades over 80 looks. */
+/* Evidence by looks with several plots on limbs, or two targets; it fades over 80 looks. */
 struct rho_body_doubt {
     float looks, long_looks; /* looks; looks with plots farther apart than the longest body */
     float steady_looks;      /* looks with range rates since the heading last turned */

@@ -31,11 +31,11 @@ struct body_outline {
     float along_m2, across_m2; /* variances of a place on the body */
     float error_m2[3];         /* covariance of the predicted place: along, cross, across */
     float plots;               /* mean number of plots a look */
-    float rates_m2ps2;         /* variance of range rates by parts that move, as limbs */
+    float rates_m2ps2;         /* variance of range rates by limbs, or by two velocities */
 };
-/* Width of the widest body of a length: short ones, as people, may be as wide as long. */
+/* Width of the widest body of a length: people are round. */
 float rho_bodies_widest_m(float longest_m, float length_m);
-/* That of a track's body of a length; across an unknown heading it is the longest's length. */
+/* That of a track's body of a length, whose heading may be off; the longest's length at most. */
 float rho_bodies_width_most_m(const struct rho_tracker *tracker, unsigned row, float length_m);
 /* The most that a target moves between a look's time and one of its plots, if this fast. */
 float rho_bodies_moved_m(const struct rho_look *look, const float velocity_mps[2]);
@@ -50,7 +50,7 @@ struct outline_fit {
     float noise_m2[3];                   /* covariance of the place: along, cross, across */
     int has_rate;                        /* 1: a range rate was measured; else what follows is 0 */
     float rate_mps;                      /* less that of a target there with the velocity */
-    float rate_m2ps2;                    /* variance by the noise of rate and azimuth */
+    float rate_m2ps2;                    /* variance by the noise of rate and azimuth, by limbs */
     float line_turn_m2ps2; /* the azimuth's part of it: its error turns the line of sight */
     float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
     float track_m2ps2;     /* by rho_bodies_fit_plot: of the outline's velocity along it */
@@ -95,6 +95,8 @@ void rho_bodies_sum_plot(struct body_sums *sums, const struct rho_plot *plot,
 /* Adds them to the evidence that the track's body is two targets. */
 void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
                           const struct body_sums *sums, unsigned row);
+/* Variance of a body's range rates, by that evidence, that no turn or error explains: by limbs. */
+float rho_bodies_limbs_m2ps2(const struct rho_body_filter *body);
 /* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
 enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row);
 /* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */

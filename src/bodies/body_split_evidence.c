@@ -105,10 +105,30 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
     doubt->rate_noise_m2ps2 += (1.0f - mean) * sums->rate_noise_m2ps2;
 }
 
+/* What a plane over the body explains of the squares of range rates, by least squares. */
+static float explained_m2ps2(const struct rho_body_doubt *doubt)
+{
+    const float det = doubt->far_m2 * doubt->side_m2 - doubt->cross_m2 * doubt->cross_m2;
+    const float far = doubt->far_m2ps, side = doubt->side_m2ps;
+    return det > PLANE_SHARE * doubt->far_m2 * doubt->side_m2
+               ? (doubt->side_m2 * far * far - 2.0f * doubt->cross_m2 * far * side +
+                  doubt->far_m2 * side * side) /
+                     det
+               : 0.0f;
+}
+
+float rho_bodies_limbs_m2ps2(const struct rho_body_filter *body)
+{
+    const struct rho_body_doubt *doubt = &body->doubt;
+    const float left = doubt->rates_m2ps2 - explained_m2ps2(doubt) - doubt->rate_noise_m2ps2 -
+                       doubt->unknown_m2ps2;
+    return rho_larger(left, 0.0f) / (doubt->plots_beyond_one + 1.0f);
+}
+
 /*
- * Fits a plane to the range rates over the body, by least squares. Where the plane explains more
- * than noise, an unseen turn and errors of the velocity and of azimuths do, the plots are of two
- * targets. Wheels and other moving parts raise the noise, which is taken from the residuals.
+ * Where a plane explains more of the range rates than noise, an unseen turn and errors of the
+ * velocity and of azimuths do, the plots are of two targets. Wheels and other moving parts raise
+ * the noise, which is taken from the residuals.
  */
 enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row)
 {
@@ -117,15 +137,10 @@ enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, u
     if (doubt->long_looks > LONG_LOOKS && doubt->long_looks > LONG_SHARE * doubt->looks) {
         return RHO_BODY_TOO_LONG;
     }
-    const float det = doubt->far_m2 * doubt->side_m2 - doubt->cross_m2 * doubt->cross_m2;
-    if (doubt->steady_looks < SETTLED_LOOKS ||
-        !(det > PLANE_SHARE * doubt->far_m2 * doubt->side_m2)) {
+    if (doubt->steady_looks < SETTLED_LOOKS) {
         return RHO_BODY_ONE;
     }
-    const float far = doubt->far_m2ps, side = doubt->side_m2ps;
-    const float explained = (doubt->side_m2 * far * far - 2.0f * doubt->cross_m2 * far * side +
-                             doubt->far_m2 * side * side) /
-                            det;
+    const float explained = explained_m2ps2(doubt);
     const float noise = rho_larger(doubt->rate_noise_m2ps2, doubt->rates_m2ps2 - explained);
     const float turn_radps =
         UNSEEN_TURN_SHARE * heading_tolerance_rad(body) / (doubt->time_s + 1e-6f);

@@ -56,8 +56,7 @@ struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsign
         .along_m2 = body->along_m2,
         .across_m2 = body->across_m2,
         .plots = body->plots_a_look,
-        .rates_m2ps2 = rho_larger(body->doubt.rates_m2ps2 - body->doubt.rate_noise_m2ps2, 0.0f) /
-                       rho_larger(body->doubt.plots_beyond_one, 1.0f),
+        .rates_m2ps2 = rho_bodies_limbs_m2ps2(body),
     };
     rho_body_rotate_covariance(body->cos_heading, body->sin_heading, place_m2, outline.error_m2);
     return outline;
@@ -90,12 +89,19 @@ struct body_outline rho_bodies_join_outlines(const struct rho_look *look, unsign
     joint.place_m[0] += left * dx_m;
     joint.place_m[1] += left * dy_m;
     /* what the velocities differ along the line of sight is spread of the one body's range rates */
-    const float x_m = joint.place_m[0] - (look->sensor ? look->sensor->x_m : 0.0f),
-                y_m = joint.place_m[1] - (look->sensor ? look->sensor->y_m : 0.0f);
-    const float off = x_m * (other.velocity_mps[0] - one.velocity_mps[0]) +
-                      y_m * (other.velocity_mps[1] - one.velocity_mps[1]);
+    const struct rho_sensor *sensor = look->sensor;
+    const float *state = tracker->tracks[row].kalman.state;
+    const float sight_m[3] = {
+        joint.place_m[0] - (sensor ? sensor->x_m : 0.0f),
+        joint.place_m[1] - (sensor ? sensor->y_m : 0.0f),
+        look->scan->measures & RHO_MEASURES_Z ? state[2] - (sensor ? sensor->z_m : 0.0f) : 0.0f};
+    float range_m2 = LINE_LEAST_M2, off_m2ps = 0.0f;
+    for (unsigned i = 0; i < 3; i++) {
+        range_m2 += sight_m[i] * sight_m[i];
+        off_m2ps += sight_m[i] * (other.velocity_mps[i] - one.velocity_mps[i]);
+    }
     joint.rates_m2ps2 = share * one.rates_m2ps2 + left * other.rates_m2ps2 +
-                        share * left * off * off / (x_m * x_m + y_m * y_m + LINE_LEAST_M2);
+                        share * left * off_m2ps * off_m2ps / range_m2;
     joint.along_m2 =
         rho_smaller(share * one.along_m2 + left * (turned_m2[0] + share * along_m * along_m),
                     longest_m * longest_m / 12.0f);

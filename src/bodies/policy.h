@@ -21,13 +21,14 @@
  */
 #define DOUBT_MEMORY 80.0f
 /*
- * Sigmas that errors explain: of range rates, lengths, velocities of two tracks. Half: targets fall
- * into several groups and tracks. Twice: neighbours with other velocities are one target.
+ * Sigmas that errors explain: of range rates and lengths. Half: targets fall into several groups
+ * and tracks. Twice: neighbours with other velocities are one target.
  */
 #define BODY_ERROR_SIGMAS 4.0f
 /*
- * Sigmas by which things are usually off: two plots of the longest body, a heading, velocity and
- * azimuths. Half: the ends of long bodies are groups of their own. Twice: neighbours join them.
+ * Sigmas by which things are usually off: two plots of the longest body, its turn, a heading,
+ * velocity and azimuths. Half: ends of long bodies are groups of their own. Twice: cars that start
+ * abreast are one.
  */
 #define LOOSE_SIGMAS 2.0f
 
@@ -76,7 +77,10 @@
  */
 #define WIDEST_SHARE 0.3f
 #define ROUND_MOST_M 2.5f
-/* Least length that it is a share of, over the longest. Half: ships seen from ahead are split. */
+/*
+ * Least length that it is a share of, over the longest. Half: ships seen from ahead are split.
+ * Twice: cars beside trucks keep one track.
+ */
 #define LENGTH_LEAST_SHARE 0.5f
 /*
  * Most sigma of range rates by parts that move, in sigmas of their noise. Half: limbs have tracks.
@@ -116,7 +120,7 @@
 
 /*
  * Evidence against two bodies for one in each look, and in each of its plots, ln: two fit better
- * than one by chance. Half: halves of trucks stay two tracks. Twice: people side by side are one.
+ * than one by chance. Half: halves of ships stay two tracks. Twice: people side by side are one.
  */
 #define TWO_LOOK_NAT 0.1f
 #define TWO_PLOT_NAT 0.15f

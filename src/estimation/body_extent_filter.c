@@ -32,6 +32,20 @@ void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float
     };
 }
 
+void rho_body_set_heading(struct rho_body_filter *body, float cos_heading, float sin_heading,
+                          float sigma_rad)
+{
+    if (!body->has_heading) {
+        const float width_m2 = body->prior_m2 / (body->aspect * body->aspect);
+        body->across_m2 = width_m2;
+        body->across = prior_side(width_m2, WIDTH_PRIOR_WEIGHT);
+    }
+    body->cos_heading = cos_heading;
+    body->sin_heading = sin_heading;
+    body->heading_sigma_rad = sigma_rad;
+    body->has_heading = 1;
+}
+
 void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float velocity_mps[2],
                                     const float covariance[3])
 {
@@ -45,18 +59,9 @@ void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float ve
         s * s * covariance[0] - 2.0f * c * s * covariance[1] + c * c * covariance[2];
     /* of one who stops only the velocity across the line of sight is left: noise turns no body */
     const float most_m2ps2 = rho_larger(across_m2ps2, covariance[0] + covariance[2] - across_m2ps2);
-    if (!(speed_mps * speed_mps > HEADING_SIGMAS * HEADING_SIGMAS * most_m2ps2)) {
-        return;
+    if (speed_mps * speed_mps > HEADING_SIGMAS * HEADING_SIGMAS * most_m2ps2) {
+        rho_body_set_heading(body, c, s, rho_sqrt(rho_larger(across_m2ps2, 0.0f)) / speed_mps);
     }
-    if (!body->has_heading) {
-        const float width_m2 = body->prior_m2 / (body->aspect * body->aspect);
-        body->across_m2 = width_m2;
-        body->across = prior_side(width_m2, WIDTH_PRIOR_WEIGHT);
-    }
-    body->cos_heading = c;
-    body->sin_heading = s;
-    body->heading_sigma_rad = rho_sqrt(rho_larger(across_m2ps2, 0.0f)) / speed_mps;
-    body->has_heading = 1;
 }
 
 void rho_body_rotate_covariance(float cos_heading, float sin_heading, const float xx_yx_yy[3],

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * split_bodies: splits the track of a body that is two targets: its width surely exceeds that of
- * any target, or body_split_evidence.c finds in its length or range rates that it is two.
+ * any target so long, or body_split_evidence.c finds in its length or range rates that it is two.
  *
  * Cars abreast of each other are one group of plots from afar, and have one track. Nearer to the
  * sensor their body is seen to be as wide as two lanes; where one car is faster, range rates show
@@ -29,13 +29,13 @@ static float separating_value(enum rho_body_split why, const struct outline_fit 
 }
 
 /*
- * Means of the track's own plots on either side of their middle. 0: too near to show two targets.
+ * Means of the track's own plots on either side of their middle; most_m: the length or width that
+ * is exceeded. 0: too near to show two targets.
  */
 static int divide_plots(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
-                        enum rho_body_split why, struct body_side sides[2])
+                        enum rho_body_split why, float most_m, struct body_side sides[2])
 {
     const struct rho_groups *groups = &look->tracker->bodies.groups;
-    const float longest_m = look->tracker->bodies.length_max_m;
     const unsigned group = groups->first[look->tracker->tracks[row].plot];
     float least = 1e30f, most = -1e30f, rate_m2ps2 = 0.0f;
     const struct body_outline outline = rho_bodies_outline_track(look, row);
@@ -45,13 +45,12 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
         rho_bodies_see_plot(look, &outline, &scan->plots[i], &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
-        rate_m2ps2 = rho_larger(rate_m2ps2, at.rate_m2ps2);
+        const float sigma_mps = scan->plots[i].sigma_range_rate_mps;
+        rate_m2ps2 = rho_larger(rate_m2ps2, sigma_mps * sigma_mps + at.line_turn_m2ps2);
     }
     const float middle = 0.5f * (least + most);
-    const float parted = why == RHO_BODY_TOO_LONG ? PARTED_SHARE * longest_m
-                         : why == RHO_BODY_TOO_WIDE
-                             ? PARTED_SHARE * rho_bodies_widest_m(longest_m, 0.0f)
-                             : PARTED_SIGMAS * rho_sqrt(rate_m2ps2);
+    const float parted =
+        why == RHO_BODY_MOVES_APART ? PARTED_SIGMAS * rho_sqrt(rate_m2ps2) : PARTED_SHARE * most_m;
     if (!(most - least > parted)) {
         return 0;
     }
@@ -99,11 +98,11 @@ static void restart_body_filter(struct rho_tracker *tracker, unsigned row,
                                 const struct rho_body_filter *whole)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
-    const float ahead[2] = {whole->cos_heading, whole->sin_heading};
-    const float square = whole->heading_sigma_rad * whole->heading_sigma_rad;
-    const float covariance[3] = {square, 0.0f, square};
     rho_bodies_begin(tracker, row);
-    rho_body_set_heading_if_moving(body, ahead, covariance);
+    if (whole->has_heading) {
+        rho_body_set_heading(body, whole->cos_heading, whole->sin_heading,
+                             whole->heading_sigma_rad);
+    }
     body->two_nat = SPLIT_NAT;
 }
 
@@ -147,6 +146,7 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
         const unsigned num_tracks = tracker->num_tracks;
         struct body_side sides[2] = {{0}, {0}};
         struct rho_body shape;
+        float most_m = tracker->bodies.length_max_m;
         if (tracker->tracks[row].plot < 0) {
             continue;
         }
@@ -157,9 +157,10 @@ void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
                 tracker, row, shape.length_m + SURE_SIGMAS * shape.sigma_length_m);
             if (shape.width_m - SURE_SIGMAS * shape.sigma_width_m > widest_m) {
                 why = RHO_BODY_TOO_WIDE;
+                most_m = widest_m;
             }
         }
-        if (why != RHO_BODY_ONE && divide_plots(&step->look, scan, row, why, sides) &&
+        if (why != RHO_BODY_ONE && divide_plots(&step->look, scan, row, why, most_m, sides) &&
             split_track(step, row, sides)) {
             const struct rho_body_filter whole = *body;
             restart_body_filter(tracker, row, &whole);

@@ -36,7 +36,11 @@ RHO_BEGIN_C
 void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float prior_m2,
                           float aspect);
 
-/* Sets the heading by a velocity and its covariance xx, yx, yy, if over three of its sigmas. */
+/* Sets the heading and its sigma. The first one tells the width of a body from its length. */
+void rho_body_set_heading(struct rho_body_filter *body, float cos_heading, float sin_heading,
+                          float sigma_rad);
+
+/* Sets the heading by a velocity and its covariance xx, yx, yy, if over four of its sigmas. */
 void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float velocity_mps[2],
                                     const float covariance[3]);
 
