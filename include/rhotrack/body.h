@@ -50,24 +50,16 @@ struct rho_body_side {
     float prior_share; /* weight of the prior in the mean, 0 .. 1 */
 };
 
+#define RHO_BODY_SUMS 10
+
 /* Evidence by looks with several plots on limbs, or two targets; it fades over 80 looks. */
 struct rho_body_doubt {
     float looks, long_looks; /* looks; looks with plots farther apart than the longest body */
     float steady_looks;      /* looks with range rates since the heading last turned */
     float time_s;            /* duration of the steady looks */
     float cos_heading, sin_heading;
-    float plots_beyond_one; /* sum over the steady looks of their plots less one */
-    /*
-     * sums of squares and products of plots' deviations from the mean of their look: place along
-     * the line of sight (far), across it (side), range rate; and the sums by noise alone
-     */
-    float far_m2, side_m2, cross_m2, rates_m2ps2, far_m2ps, side_m2ps;
-    float side_noise_m2, rate_noise_m2ps2;
-    /*
-     * sum of squared range rates that two errors may give: of the velocity across the line of
-     * sight, and of the plots' azimuths, which turn the line of sight
-     */
-    float unknown_m2ps2;
+    /* over the steady looks, of range rates, places and noise: enum body_sum in src/bodies/bodies.h */
+    float sums[RHO_BODY_SUMS];
     int64_t time_us; /* time of the last look */
 };
 

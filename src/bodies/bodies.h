@@ -83,11 +83,26 @@ enum rho_body_split {
     RHO_BODY_TOO_LONG,
     RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
+/*
+ * Sums of products of two values' deviations from the mean of a look, the place along the line of
+ * sight (far), across it (side) and the range rate; of variances by noise; of the squares of range
+ * rates that errors of the velocity across the line of sight and of azimuths give; of plots less one.
+ */
+enum body_sum {
+    BODY_FAR_FAR,
+    BODY_SIDE_FAR,
+    BODY_SIDE_SIDE,
+    BODY_RATE_FAR,
+    BODY_RATE_SIDE,
+    BODY_RATE_RATE,
+    BODY_SIDE_NOISE,
+    BODY_RATE_NOISE,
+    BODY_RATE_UNKNOWN,
+    BODY_PLOTS_BEYOND_ONE
+};
 /* Sums over a look's plots of one track alone, which are 0 at first. */
 struct body_sums {
-    /* far: place along the line of sight; side: across it */
-    float n, far, side, rate, far2, cross, side2, rate2, rate_far, rate_side;
-    float side_noise_m2, rate_noise_m2ps2, line_turn_m2ps2;
+    float n, values[3], of[RHO_BODY_SUMS]; /* plots; far, side, rate; products without the mean */
     float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
 };
 void rho_bodies_sum_plot(struct body_sums *sums, const struct rho_plot *plot,

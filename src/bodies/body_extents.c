@@ -144,11 +144,7 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
         const struct rho_body_filter *body = &bodies->of[i];
         const struct rho_body_doubt *doubt = &body->doubt;
         const float counts[] = {doubt->looks, doubt->long_looks, doubt->steady_looks, doubt->time_s,
-                                doubt->plots_beyond_one};
-        const float squares[] = {
-            doubt->far_m2,        doubt->side_m2,          doubt->cross_m2,
-            doubt->rates_m2ps2,   doubt->far_m2ps,         doubt->side_m2ps,
-            doubt->side_noise_m2, doubt->rate_noise_m2ps2, doubt->unknown_m2ps2};
+                                doubt->sums[BODY_PLOTS_BEYOND_ONE]};
         const float cosines[] = {body->cos_heading, body->sin_heading, doubt->cos_heading,
                                  doubt->sin_heading};
         int is_sound = rho_is_within(body->along_m2, least_m2, 1e12f) &&
@@ -164,8 +160,8 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
         for (unsigned k = 0; k < sizeof counts / sizeof *counts; k++) {
             is_sound &= rho_is_within(counts[k], 0.0f, 1e9f);
         }
-        for (unsigned k = 0; k < sizeof squares / sizeof *squares; k++) {
-            is_sound &= rho_is_within(squares[k], -1e30f, 1e30f);
+        for (unsigned k = 0; k < RHO_BODY_SUMS; k++) {
+            is_sound &= rho_is_within(doubt->sums[k], -1e30f, 1e30f);
         }
         for (unsigned k = 0; k < sizeof cosines / sizeof *cosines; k++) {
             is_sound &= rho_is_within(cosines[k], -1.001f, 1.001f);

@@ -22,24 +22,22 @@ static float heading_tolerance_rad(const struct rho_body_filter *body)
 void rho_bodies_sum_plot(struct body_sums *sums, const struct rho_plot *plot,
                          const struct outline_fit *at)
 {
-    const float far_m = at->sight_line[0] * at->dx_m + at->sight_line[1] * at->dy_m,
-                side_m = at->sight_line[0] * at->dy_m - at->sight_line[1] * at->dx_m;
+    const float values[3] = {at->sight_line[0] * at->dx_m + at->sight_line[1] * at->dy_m,
+                             at->sight_line[0] * at->dy_m - at->sight_line[1] * at->dx_m,
+                             at->rate_mps};
     sums->first_m = sums->n > 0.0f ? rho_smaller(sums->first_m, at->along_m) : at->along_m;
     sums->last_m = sums->n > 0.0f ? rho_larger(sums->last_m, at->along_m) : at->along_m;
     sums->noise_m2 = rho_larger(sums->noise_m2, at->noise_m2[0]);
     sums->n += 1.0f;
-    sums->far += far_m;
-    sums->side += side_m;
-    sums->rate += at->rate_mps;
-    sums->far2 += far_m * far_m;
-    sums->cross += far_m * side_m;
-    sums->side2 += side_m * side_m;
-    sums->rate2 += at->rate_mps * at->rate_mps;
-    sums->rate_far += at->rate_mps * far_m;
-    sums->rate_side += at->rate_mps * side_m;
-    sums->side_noise_m2 += plot->sigma_cross_m * plot->sigma_cross_m;
-    sums->line_turn_m2ps2 += at->line_turn_m2ps2;
-    sums->rate_noise_m2ps2 += plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
+    for (unsigned i = 0, k = 0; i < 3; i++) {
+        sums->values[i] += values[i];
+        for (unsigned j = 0; j <= i; j++) {
+            sums->of[k++] += values[i] * values[j];
+        }
+    }
+    sums->of[BODY_SIDE_NOISE] += plot->sigma_cross_m * plot->sigma_cross_m;
+    sums->of[BODY_RATE_NOISE] += plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
+    sums->of[BODY_RATE_UNKNOWN] += at->line_turn_m2ps2;
 }
 
 void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
@@ -60,23 +58,16 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
     const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
                                                   rho_atan2(body->sin_heading, body->cos_heading));
     /* sums of range rates begin anew with a turn: parts of a turning body have different ones */
-    const int is_anew =
-        doubt->plots_beyond_one <= 0.0f || rho_magnitude(turned_rad) > heading_tolerance_rad(body);
+    const int is_anew = doubt->sums[BODY_PLOTS_BEYOND_ONE] <= 0.0f ||
+                        rho_magnitude(turned_rad) > heading_tolerance_rad(body);
     const float kept = is_anew ? 0.0f : share;
     doubt->steady_looks *= kept;
     doubt->time_s = is_anew ? 0.0f : share * doubt->time_s + passed_s;
     doubt->cos_heading += (1.0f - kept) * (body->cos_heading - doubt->cos_heading);
     doubt->sin_heading += (1.0f - kept) * (body->sin_heading - doubt->sin_heading);
-    doubt->plots_beyond_one *= kept;
-    doubt->far_m2 *= kept;
-    doubt->side_m2 *= kept;
-    doubt->cross_m2 *= kept;
-    doubt->rates_m2ps2 *= kept;
-    doubt->side_noise_m2 *= kept;
-    doubt->far_m2ps *= kept;
-    doubt->side_m2ps *= kept;
-    doubt->rate_noise_m2ps2 *= kept;
-    doubt->unknown_m2ps2 *= kept;
+    for (unsigned k = 0; k < RHO_BODY_SUMS; k++) {
+        doubt->sums[k] *= kept;
+    }
     if (sums->last_m - sums->first_m >
         tracker->bodies.length_max_m + BODY_ERROR_SIGMAS * rho_sqrt(sums->noise_m2)) {
         doubt->long_looks += 1.0f;
@@ -85,44 +76,43 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
         return; /* the velocity of a new track is too uncertain for its range rates to be judged */
     }
     doubt->steady_looks += 1.0f;
-    doubt->plots_beyond_one += sums->n - 1.0f;
-    doubt->far_m2 += sums->far2 - mean * sums->far * sums->far;
-    const float side_m2 = sums->side2 - mean * sums->side * sums->side;
     /* one sigma of the velocity across the line of sight adds this turn to range rates */
     const struct rho_track *track = &tracker->tracks[row];
     const float x_m = track->kalman.state[RHO_X] - (look->sensor ? look->sensor->x_m : 0.0f),
                 y_m = track->kalman.state[RHO_Y] - (look->sensor ? look->sensor->y_m : 0.0f);
     const float turned_radps =
         rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
-    doubt->side_m2 += side_m2;
-    doubt->unknown_m2ps2 +=
-        turned_radps * turned_radps * side_m2 + (1.0f - mean) * sums->line_turn_m2ps2;
-    doubt->side_noise_m2 += (1.0f - mean) * sums->side_noise_m2;
-    doubt->cross_m2 += sums->cross - mean * sums->far * sums->side;
-    doubt->rates_m2ps2 += sums->rate2 - mean * sums->rate * sums->rate;
-    doubt->far_m2ps += sums->rate_far - mean * sums->rate * sums->far;
-    doubt->side_m2ps += sums->rate_side - mean * sums->rate * sums->side;
-    doubt->rate_noise_m2ps2 += (1.0f - mean) * sums->rate_noise_m2ps2;
+    const float side_m2 = sums->of[BODY_SIDE_SIDE] - mean * sums->values[1] * sums->values[1];
+    for (unsigned i = 0, k = 0; i < 3; i++) {
+        for (unsigned j = 0; j <= i; j++, k++) {
+            doubt->sums[k] += sums->of[k] - mean * sums->values[i] * sums->values[j];
+        }
+    }
+    for (unsigned k = BODY_SIDE_NOISE; k <= BODY_RATE_UNKNOWN; k++) {
+        doubt->sums[k] += (1.0f - mean) * sums->of[k];
+    }
+    doubt->sums[BODY_RATE_UNKNOWN] += turned_radps * turned_radps * side_m2;
+    doubt->sums[BODY_PLOTS_BEYOND_ONE] += sums->n - 1.0f;
 }
 
 /* What a plane over the body explains of the squares of range rates, by least squares. */
-static float explained_m2ps2(const struct rho_body_doubt *doubt)
+static float explained_m2ps2(const float sums[RHO_BODY_SUMS])
 {
-    const float det = doubt->far_m2 * doubt->side_m2 - doubt->cross_m2 * doubt->cross_m2;
-    const float far = doubt->far_m2ps, side = doubt->side_m2ps;
-    return det > PLANE_SHARE * doubt->far_m2 * doubt->side_m2
-               ? (doubt->side_m2 * far * far - 2.0f * doubt->cross_m2 * far * side +
-                  doubt->far_m2 * side * side) /
-                     det
+    const float far_m2 = sums[BODY_FAR_FAR], side_m2 = sums[BODY_SIDE_SIDE];
+    const float cross_m2 = sums[BODY_SIDE_FAR];
+    const float far = sums[BODY_RATE_FAR], side = sums[BODY_RATE_SIDE];
+    const float det = far_m2 * side_m2 - cross_m2 * cross_m2;
+    return det > PLANE_SHARE * far_m2 * side_m2
+               ? (side_m2 * far * far - 2.0f * cross_m2 * far * side + far_m2 * side * side) / det
                : 0.0f;
 }
 
 float rho_bodies_limbs_m2ps2(const struct rho_body_filter *body)
 {
-    const struct rho_body_doubt *doubt = &body->doubt;
-    const float left = doubt->rates_m2ps2 - explained_m2ps2(doubt) - doubt->rate_noise_m2ps2 -
-                       doubt->unknown_m2ps2;
-    return rho_larger(left, 0.0f) / (doubt->plots_beyond_one + 1.0f);
+    const float *sums = body->doubt.sums;
+    const float left = sums[BODY_RATE_RATE] - explained_m2ps2(sums) - sums[BODY_RATE_NOISE] -
+                       sums[BODY_RATE_UNKNOWN];
+    return rho_larger(left, 0.0f) / (sums[BODY_PLOTS_BEYOND_ONE] + 1.0f);
 }
 
 /*
@@ -140,15 +130,17 @@ enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, u
     if (doubt->steady_looks < SETTLED_LOOKS) {
         return RHO_BODY_ONE;
     }
-    const float explained = explained_m2ps2(doubt);
-    const float noise = rho_larger(doubt->rate_noise_m2ps2, doubt->rates_m2ps2 - explained);
+    const float *sums = doubt->sums;
+    const float explained = explained_m2ps2(sums);
+    const float rate_noise = sums[BODY_RATE_NOISE], side_noise_m2 = sums[BODY_SIDE_NOISE];
+    const float noise = rho_larger(rate_noise, sums[BODY_RATE_RATE] - explained);
     const float turn_radps =
         UNSEEN_TURN_SHARE * heading_tolerance_rad(body) / (doubt->time_s + 1e-6f);
     const float side_m2 =
-        rho_larger(doubt->side_m2 - doubt->side_noise_m2, SIDE_SHARE * doubt->side_noise_m2);
-    const int moves_apart = explained * doubt->plots_beyond_one > APART_CHI2 * noise &&
-                            explained > doubt->rate_noise_m2ps2 &&
+        rho_larger(sums[BODY_SIDE_SIDE] - side_noise_m2, SIDE_SHARE * side_noise_m2);
+    const int moves_apart = explained * sums[BODY_PLOTS_BEYOND_ONE] > APART_CHI2 * noise &&
+                            explained > rate_noise &&
                             explained > turn_radps * turn_radps * side_m2 +
-                                            LOOSE_SIGMAS * LOOSE_SIGMAS * doubt->unknown_m2ps2;
+                                            LOOSE_SIGMAS * LOOSE_SIGMAS * sums[BODY_RATE_UNKNOWN];
     return moves_apart ? RHO_BODY_MOVES_APART : RHO_BODY_ONE;
 }
