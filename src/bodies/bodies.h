@@ -16,8 +16,6 @@ void rho_bodies_ungroup(struct rho_tracker *tracker, struct rho_look *look,
                         const struct rho_scan *scan);
 /* body_extents.c (RHO_BODIES): puts the bodies in the order of the tracks, with new ones added */
 void rho_bodies_align(struct rho_tracker *tracker);
-/* Sets the heading of a track's body to that of the track's velocity. */
-void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_bodies_ungroup. */
 void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
                        const struct rho_scan *scan);

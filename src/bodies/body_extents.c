@@ -59,15 +59,6 @@ void rho_bodies_align(struct rho_tracker *tracker)
     bodies->count = tracker->num_tracks;
 }
 
-void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row)
-{
-    const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
-    const float *p = kalman->covariance;
-    const float velocity[3] = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
-                               p[RHO_AT(RHO_VY, RHO_VY)]};
-    rho_body_set_heading_if_moving(&tracker->bodies.of[row], &kalman->state[RHO_VX], velocity);
-}
-
 void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
                        const struct rho_scan *scan)
 {
@@ -82,7 +73,11 @@ void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
         if (track->plot < 0) {
             continue;
         }
-        rho_bodies_set_heading(tracker, row);
+        const float *p = track->kalman.covariance;
+        const float velocity_m2ps2[3] = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
+                                         p[RHO_AT(RHO_VY, RHO_VY)]};
+        rho_body_set_heading_if_moving(&tracker->bodies.of[row], &track->kalman.state[RHO_VX],
+                                       velocity_m2ps2);
         const struct rho_bodies *bodies = &tracker->bodies;
         const struct body_outline outline = rho_bodies_outline_track(look, row);
         struct rho_body_filter *body = &tracker->bodies.of[row];
@@ -132,6 +127,15 @@ static int is_sound_side(const struct rho_body_side *side)
            rho_is_within(side->prior_share, 0.0f, 1.0f);
 }
 
+static int are_within(const float *values, unsigned num, float least, float most)
+{
+    int is_each = 1;
+    for (unsigned i = 0; i < num; i++) {
+        is_each &= rho_is_within(values[i], least, most);
+    }
+    return is_each;
+}
+
 int rho_bodies_are_sound(const struct rho_tracker *tracker)
 {
     const struct rho_bodies *bodies = &tracker->bodies;
@@ -145,27 +149,20 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
         const struct rho_body_doubt *doubt = &body->doubt;
         const float counts[] = {doubt->looks, doubt->long_looks, doubt->steady_looks, doubt->time_s,
                                 doubt->sums[BODY_PLOTS_BEYOND_ONE]};
+        const float squares_m2[] = {body->along_m2, body->across_m2, body->prior_m2};
         const float cosines[] = {body->cos_heading, body->sin_heading, doubt->cos_heading,
                                  doubt->sin_heading};
-        int is_sound = rho_is_within(body->along_m2, least_m2, 1e12f) &&
-                       rho_is_within(body->across_m2, least_m2, 1e12f) &&
-                       rho_is_within(body->prior_m2, least_m2, 1e12f) &&
-                       is_sound_side(&body->along) && rho_is_within(body->aspect, 1.0f, 1e6f) &&
+        int is_sound = is_sound_side(&body->along) && is_sound_side(&body->across) &&
+                       rho_is_within(body->aspect, 1.0f, 1e6f) &&
                        rho_is_within(body->plots_a_look, 0.5f, 1e6f) &&
-                       rho_is_within(body->two_nat, -1e3f, 1e3f) && is_sound_side(&body->across) &&
+                       rho_is_within(body->two_nat, -1e3f, 1e3f) &&
                        rho_is_within(body->slope, -1e12f, 1e12f) &&
                        rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
                        rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
                        rho_is_within(body->plots, 1.0f, 1e6f) && rho_is_stored_time(doubt->time_us);
-        for (unsigned k = 0; k < sizeof counts / sizeof *counts; k++) {
-            is_sound &= rho_is_within(counts[k], 0.0f, 1e9f);
-        }
-        for (unsigned k = 0; k < RHO_BODY_SUMS; k++) {
-            is_sound &= rho_is_within(doubt->sums[k], -1e30f, 1e30f);
-        }
-        for (unsigned k = 0; k < sizeof cosines / sizeof *cosines; k++) {
-            is_sound &= rho_is_within(cosines[k], -1.001f, 1.001f);
-        }
+        is_sound &= are_within(squares_m2, 3, least_m2, 1e12f) & are_within(counts, 5, 0.0f, 1e9f) &
+                    are_within(doubt->sums, RHO_BODY_SUMS, -1e30f, 1e30f) &
+                    are_within(cosines, 4, -1.001f, 1.001f);
         if (!is_sound) {
             return 0;
         }

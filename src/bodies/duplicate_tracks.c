@@ -22,15 +22,6 @@ static int is_older(const struct rho_tracker *tracker, unsigned row, unsigned ot
     return is_known != is_other_known ? is_known : row < other;
 }
 
-/* True where the velocities of two tracks differ by this at most. */
-static int differ_at_most(const struct rho_track *one, const struct rho_track *other,
-                          float most_mps)
-{
-    const float vx_mps = one->kalman.state[RHO_VX] - other->kalman.state[RHO_VX],
-                vy_mps = one->kalman.state[RHO_VY] - other->kalman.state[RHO_VY];
-    return vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
-}
-
 /* The most, on an axis, by which a turn changes the velocity of a target. */
 static float turn_most_mps(const struct rho_tracker *tracker)
 {
@@ -44,8 +35,11 @@ static float turn_most_mps(const struct rho_tracker *tracker)
 static int may_replace(const struct rho_tracker *tracker, unsigned older, unsigned younger)
 {
     const struct rho_track *from = &tracker->tracks[older], *to = &tracker->tracks[younger];
+    const float vx_mps = to->kalman.state[RHO_VX] - from->kalman.state[RHO_VX],
+                vy_mps = to->kalman.state[RHO_VY] - from->kalman.state[RHO_VY];
+    const float most_mps = turn_most_mps(tracker);
     return from->misses_in_row > 0 && to->hits <= from->misses_in_row + 1u &&
-           differ_at_most(from, to, turn_most_mps(tracker));
+           vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
 }
 
 /* Distance of a younger track; less than it is from one that may have turned since it was seen. */
@@ -141,6 +135,7 @@ static struct pair_evidence evidence_of_two(struct step *step, unsigned older, u
     /* two bodies fit the same plots better than one: that is no evidence, unless they are known */
     const float known = rho_larger(tracker->bodies.of[younger].two_nat, 0.0f) / TWO_MOST_NAT;
     const float plot_nat = TWO_PLOT_NAT * (1.0f - known);
+    const int is_lost = may_replace(tracker, older, younger);
     unsigned num_plots = 0;
     rho_work_spend(&step->work, EVIDENCE_UNITS);
     float joint_nat = -TWO_LOOK_NAT, first_nat = -TWO_LOOK_NAT, second_nat = -TWO_LOOK_NAT;
@@ -162,10 +157,11 @@ static struct pair_evidence evidence_of_two(struct step *step, unsigned older, u
         const float two = by_first + by_second, far = FAR_SHARE * two;
         joint_nat += rho_log(two / (by_joint + far)) - plot_nat;
         first_nat += rho_log(two / (by_first * joint.plots / first.plots + far)) - plot_nat;
-        second_nat += rho_log(two / (by_second * joint.plots / second.plots + far)) - plot_nat;
+        if (is_lost) {
+            second_nat += rho_log(two / (by_second * joint.plots / second.plots + far)) - plot_nat;
+        }
     }
-    const int is_by_younger =
-        may_replace(tracker, older, younger) && second_nat < first_nat && second_nat < joint_nat;
+    const int is_by_younger = is_lost && second_nat < first_nat && second_nat < joint_nat;
     float nat = is_by_younger ? second_nat : rho_smaller(joint_nat, first_nat);
     /* a look says little: plots are not independent, and older tracks change from look to look */
     nat = rho_smaller(rho_larger(nat, -TWO_LOOK_MOST_NAT), TWO_LOOK_MOST_NAT);

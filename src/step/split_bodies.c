@@ -16,8 +16,8 @@
 
 struct body_side {
     unsigned plots;
-    float x_m, y_m;       /* mean offset of the plots from the track's position */
-    float vx_mps, vy_mps; /* mean range-rate residual of the plots, as a velocity offset */
+    /* mean of the plots: place (x, y) off the track's in m, range rate as a velocity (x, y) in m/s */
+    float off[4];
 };
 
 /* The coordinate of a plot that tells the sides apart: along, across or range-rate residual. */
@@ -59,17 +59,11 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
         rho_bodies_see_plot(look, &outline, &scan->plots[i], &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
-        side->x_m += at.dx_m;
-        side->y_m += at.dy_m;
-        side->vx_mps += at.sight_line[0] * at.rate_mps;
-        side->vy_mps += at.sight_line[1] * at.rate_mps;
-    }
-    for (int i = 0; i < 2 && sides[i].plots > 0; i++) {
-        const float share = 1.0f / (float)sides[i].plots;
-        sides[i].x_m *= share;
-        sides[i].y_m *= share;
-        sides[i].vx_mps *= share;
-        sides[i].vy_mps *= share;
+        const float off[4] = {at.dx_m, at.dy_m, at.sight_line[0] * at.rate_mps,
+                              at.sight_line[1] * at.rate_mps};
+        for (unsigned k = 0; k < 4; k++) {
+            side->off[k] += (off[k] - side->off[k]) / (float)side->plots;
+        }
     }
     return sides[0].plots > 0 && sides[1].plots > 0;
 }
@@ -81,14 +75,11 @@ static enum rho_status start_from_side(const struct rho_look *look, const struct
 {
     const float mean_m2 = rho_bodies_prior_m2(look->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
-    there.state[RHO_X] += side->x_m;
-    there.state[RHO_Y] += side->y_m;
-    there.state[RHO_VX] += side->vx_mps;
-    there.state[RHO_VY] += side->vy_mps;
-    there.covariance[RHO_AT(RHO_X, RHO_X)] += mean_m2;
-    there.covariance[RHO_AT(RHO_Y, RHO_Y)] += mean_m2;
-    there.covariance[RHO_AT(RHO_VX, RHO_VX)] += side->vx_mps * side->vx_mps;
-    there.covariance[RHO_AT(RHO_VY, RHO_VY)] += side->vy_mps * side->vy_mps;
+    for (unsigned k = 0; k < 4; k++) {
+        const unsigned of = k < 2 ? RHO_X + k : RHO_VX + k - 2u;
+        there.state[of] += side->off[k];
+        there.covariance[RHO_AT(of, of)] += k < 2 ? mean_m2 : side->off[k] * side->off[k];
+    }
     return rho_track_start_estimate(out, track_id, &there, track->time_us, track->sensor_id,
                                     track->hits, &look->model, track->score_mnat);
 }
