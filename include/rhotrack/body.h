@@ -58,7 +58,7 @@ struct rho_body_doubt {
     float steady_looks;      /* looks with range rates since the heading last turned */
     float time_s;            /* duration of the steady looks */
     float cos_heading, sin_heading;
-    /* over the steady looks, of range rates, places and noise: enum body_sum in src/bodies/bodies.h */
+    /* over the steady looks, of range rates, places and noise: rows in src/bodies/bodies.h */
     float sums[RHO_BODY_SUMS];
     int64_t time_us; /* time of the last look */
 };

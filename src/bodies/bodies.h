@@ -82,22 +82,12 @@ enum rho_body_split {
     RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
 /*
- * Sums of products of two values' deviations from the mean of a look, the place along the line of
- * sight (far), across it (side) and the range rate; of variances by noise; of the squares of range
- * rates that errors of the velocity across the line of sight and of azimuths give; of plots less one.
+ * Sums of products of deviations from a look's mean: of the place along the line of sight (far),
+ * across it (side), of the range rate; then of their variances by noise and by errors of velocity
+ * and azimuths; of plots less one.
  */
-enum body_sum {
-    BODY_FAR_FAR,
-    BODY_SIDE_FAR,
-    BODY_SIDE_SIDE,
-    BODY_RATE_FAR,
-    BODY_RATE_SIDE,
-    BODY_RATE_RATE,
-    BODY_SIDE_NOISE,
-    BODY_RATE_NOISE,
-    BODY_RATE_UNKNOWN,
-    BODY_PLOTS_BEYOND_ONE
-};
+enum { BODY_FAR, BODY_SIDE, BODY_RATE }; /* rows of the products: RHO_AT(BODY_SIDE, BODY_FAR) */
+enum { BODY_SIDE_NOISE = 6, BODY_RATE_NOISE, BODY_RATE_UNKNOWN, BODY_PLOTS_BEYOND_ONE };
 /* Sums over a look's plots of one track alone, which are 0 at first. */
 struct body_sums {
     float n, values[3], of[RHO_BODY_SUMS]; /* plots; far, side, rate; products without the mean */
@@ -122,14 +112,13 @@ static inline int rho_bodies_may_own(const struct rho_look *look, unsigned row)
 void rho_bodies_begin(struct rho_tracker *tracker, unsigned row);
 /* Prior variance of a place on a body, on each axis. */
 float rho_bodies_prior_m2(const struct rho_tracker *tracker);
-
 /* True once the body's first heading and the track's first velocity are corrected. */
 int rho_bodies_is_settled(const struct rho_tracker *tracker, unsigned row);
 
 /* sudden_turns.c: a body that turns at once keeps its plots; its velocity becomes uncertain */
 void rho_bodies_follow_turns(struct step *step);
-/* Standard deviation of the velocity's change, on an axis, when a target turns at once. */
-float rho_bodies_turn_mps(const struct rho_tracker *tracker);
+/* The most, on an axis, by which a turn changes the velocity of a target. */
+float rho_bodies_turn_most_mps(const struct rho_tracker *tracker);
 
 /* duplicate_tracks.c: leaves one of two tracks of one target, with the plots of both */
 void rho_bodies_end_duplicates(struct step *step);

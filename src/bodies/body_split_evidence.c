@@ -11,7 +11,6 @@
  */
 #include "bodies.h"
 #include "policy.h"
-#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
 static float heading_tolerance_rad(const struct rho_body_filter *body)
@@ -55,11 +54,13 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
     const float share = 1.0f - 1.0f / DOUBT_MEMORY;
     doubt->looks = share * doubt->looks + 1.0f;
     doubt->long_looks *= share;
-    const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
-                                                  rho_atan2(body->sin_heading, body->cos_heading));
+    const float ahead =
+                    doubt->cos_heading * body->cos_heading + doubt->sin_heading * body->sin_heading,
+                aside =
+                    doubt->cos_heading * body->sin_heading - doubt->sin_heading * body->cos_heading;
     /* sums of range rates begin anew with a turn: parts of a turning body have different ones */
     const int is_anew = doubt->sums[BODY_PLOTS_BEYOND_ONE] <= 0.0f ||
-                        rho_magnitude(turned_rad) > heading_tolerance_rad(body);
+                        rho_magnitude(aside) > heading_tolerance_rad(body) * ahead;
     const float kept = is_anew ? 0.0f : share;
     doubt->steady_looks *= kept;
     doubt->time_s = is_anew ? 0.0f : share * doubt->time_s + passed_s;
@@ -82,7 +83,8 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
                 y_m = track->kalman.state[RHO_Y] - (look->sensor ? look->sensor->y_m : 0.0f);
     const float turned_radps =
         rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
-    const float side_m2 = sums->of[BODY_SIDE_SIDE] - mean * sums->values[1] * sums->values[1];
+    const float side_m2 =
+        sums->of[RHO_AT(BODY_SIDE, BODY_SIDE)] - mean * sums->values[1] * sums->values[1];
     for (unsigned i = 0, k = 0; i < 3; i++) {
         for (unsigned j = 0; j <= i; j++, k++) {
             doubt->sums[k] += sums->of[k] - mean * sums->values[i] * sums->values[j];
@@ -98,9 +100,10 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
 /* What a plane over the body explains of the squares of range rates, by least squares. */
 static float explained_m2ps2(const float sums[RHO_BODY_SUMS])
 {
-    const float far_m2 = sums[BODY_FAR_FAR], side_m2 = sums[BODY_SIDE_SIDE];
-    const float cross_m2 = sums[BODY_SIDE_FAR];
-    const float far = sums[BODY_RATE_FAR], side = sums[BODY_RATE_SIDE];
+    const float far_m2 = sums[RHO_AT(BODY_FAR, BODY_FAR)],
+                side_m2 = sums[RHO_AT(BODY_SIDE, BODY_SIDE)];
+    const float cross_m2 = sums[RHO_AT(BODY_SIDE, BODY_FAR)];
+    const float far = sums[RHO_AT(BODY_RATE, BODY_FAR)], side = sums[RHO_AT(BODY_RATE, BODY_SIDE)];
     const float det = far_m2 * side_m2 - cross_m2 * cross_m2;
     return det > PLANE_SHARE * far_m2 * side_m2
                ? (side_m2 * far * far - 2.0f * cross_m2 * far * side + far_m2 * side * side) / det
@@ -110,8 +113,8 @@ static float explained_m2ps2(const float sums[RHO_BODY_SUMS])
 float rho_bodies_limbs_m2ps2(const struct rho_body_filter *body)
 {
     const float *sums = body->doubt.sums;
-    const float left = sums[BODY_RATE_RATE] - explained_m2ps2(sums) - sums[BODY_RATE_NOISE] -
-                       sums[BODY_RATE_UNKNOWN];
+    const float left = sums[RHO_AT(BODY_RATE, BODY_RATE)] - explained_m2ps2(sums) -
+                       sums[BODY_RATE_NOISE] - sums[BODY_RATE_UNKNOWN];
     return rho_larger(left, 0.0f) / (sums[BODY_PLOTS_BEYOND_ONE] + 1.0f);
 }
 
@@ -133,11 +136,11 @@ enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, u
     const float *sums = doubt->sums;
     const float explained = explained_m2ps2(sums);
     const float rate_noise = sums[BODY_RATE_NOISE], side_noise_m2 = sums[BODY_SIDE_NOISE];
-    const float noise = rho_larger(rate_noise, sums[BODY_RATE_RATE] - explained);
+    const float noise = rho_larger(rate_noise, sums[RHO_AT(BODY_RATE, BODY_RATE)] - explained);
     const float turn_radps =
         UNSEEN_TURN_SHARE * heading_tolerance_rad(body) / (doubt->time_s + 1e-6f);
     const float side_m2 =
-        rho_larger(sums[BODY_SIDE_SIDE] - side_noise_m2, SIDE_SHARE * side_noise_m2);
+        rho_larger(sums[RHO_AT(BODY_SIDE, BODY_SIDE)] - side_noise_m2, SIDE_SHARE * side_noise_m2);
     const int moves_apart = explained * sums[BODY_PLOTS_BEYOND_ONE] > APART_CHI2 * noise &&
                             explained > rate_noise &&
                             explained > turn_radps * turn_radps * side_m2 +

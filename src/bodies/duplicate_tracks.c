@@ -10,6 +10,8 @@
  * Where an older track does not see its target any more since a younger one began, the younger
  * alone may explain the plots, too: the target has turned. The older goes on with its estimate.
  */
+#include <string.h>
+
 #include "bodies.h"
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
@@ -22,12 +24,6 @@ static int is_older(const struct rho_tracker *tracker, unsigned row, unsigned ot
     return is_known != is_other_known ? is_known : row < other;
 }
 
-/* The most, on an axis, by which a turn changes the velocity of a target. */
-static float turn_most_mps(const struct rho_tracker *tracker)
-{
-    return BODY_GATE_SIGMAS * rho_bodies_turn_mps(tracker);
-}
-
 /*
  * True where a younger track may see what an older one has lost: both were never seen at once, and
  * a turn explains their velocities.
@@ -37,7 +33,7 @@ static int may_replace(const struct rho_tracker *tracker, unsigned older, unsign
     const struct rho_track *from = &tracker->tracks[older], *to = &tracker->tracks[younger];
     const float vx_mps = to->kalman.state[RHO_VX] - from->kalman.state[RHO_VX],
                 vy_mps = to->kalman.state[RHO_VY] - from->kalman.state[RHO_VY];
-    const float most_mps = turn_most_mps(tracker);
+    const float most_mps = rho_bodies_turn_most_mps(tracker);
     return from->misses_in_row > 0 && to->hits <= from->misses_in_row + 1u &&
            vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
 }
@@ -51,7 +47,7 @@ static float distance_m(const struct rho_look *look, unsigned older, unsigned yo
                 dy_m = to->kalman.state[RHO_Y] - from->kalman.state[RHO_Y];
     const float apart_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     const float turned_m =
-        turn_most_mps(tracker) * rho_seconds_between(from->updated_us, look->time_us);
+        rho_bodies_turn_most_mps(tracker) * rho_seconds_between(from->updated_us, look->time_us);
     return may_replace(tracker, older, younger)
                ? apart_m - rho_smaller(turned_m, tracker->bodies.length_max_m)
                : apart_m;
@@ -182,19 +178,16 @@ static void take_estimate(struct rho_track *older, struct rho_track *younger)
     older->maneuver_probability = younger->maneuver_probability;
     older->is_undecided = younger->is_undecided;
     older->num_velocities = younger->num_velocities;
-    for (unsigned i = 0; i < 3; i++) {
-        older->accel_mps2[i] = younger->accel_mps2[i];
-        older->newest_mps[i] = younger->newest_mps[i];
-        older->before_mps[i] = younger->before_mps[i];
-    }
+    memcpy(older->accel_mps2, younger->accel_mps2, sizeof older->accel_mps2);
+    memcpy(older->newest_mps, younger->newest_mps, sizeof older->newest_mps);
+    memcpy(older->before_mps, younger->before_mps, sizeof older->before_mps);
     older->time_us = younger->time_us;
     older->updated_us = younger->updated_us;
     older->seen_us = younger->seen_us;
     older->sensor_id = younger->sensor_id;
     older->misses_in_row = younger->misses_in_row;
     older->has_shown = 0;
-    older->plot_m[0] = younger->plot_m[0];
-    older->plot_m[1] = younger->plot_m[1];
+    memcpy(older->plot_m, younger->plot_m, sizeof older->plot_m);
     older->plot_sigma_m = younger->plot_sigma_m;
     if (rho_track_existence(older) < rho_track_existence(younger)) {
         older->visible = younger->visible;
@@ -223,13 +216,6 @@ static void end_duplicate(struct step *step, unsigned older, unsigned younger, i
     rho_life_end(step, &tracks[younger]);
 }
 
-/* True of one long apart from each older track, whose plots no other contends for: not asked. */
-static int is_surely_apart(const struct rho_tracker *tracker, unsigned row, int is_contested)
-{
-    return !is_contested && tracker->bodies.of[row].two_nat >= TWO_MOST_NAT &&
-           tracker->tracks[row].hits > MISSED_MOST;
-}
-
 void rho_bodies_end_duplicates(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -247,8 +233,10 @@ void rho_bodies_end_duplicates(struct step *step)
     for (unsigned row = tracker->num_tracks; row-- > 0;) {
         struct rho_body_filter *body = &tracker->bodies.of[row];
         int is_seen = 0;
+        /* long apart from each older track, and no other contends for its plots: not asked */
         if (!rho_bodies_may_own(&step->look, row) ||
-            is_surely_apart(tracker, row, is_contested[row])) {
+            (!is_contested[row] && body->two_nat >= TWO_MOST_NAT &&
+             tracker->tracks[row].hits > MISSED_MOST)) {
             continue;
         }
         const unsigned older = nearest_older(step, row, &is_seen);

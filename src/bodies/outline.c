@@ -42,9 +42,8 @@ struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsign
     const struct rho_track *track = &look->tracker->tracks[row];
     const struct rho_kalman *kalman = &track->kalman;
     const struct rho_body_filter *body = &look->tracker->bodies.of[row];
-    const float *state = kalman->state, *p = kalman->covariance;
-    const float place_m2[3] = {p[RHO_AT(RHO_X, RHO_X)], p[RHO_AT(RHO_X, RHO_Y)],
-                               p[RHO_AT(RHO_Y, RHO_Y)]};
+    const float *state = kalman->state,
+                *p = kalman->covariance; /* of the place: xx, yx, yy first */
     struct body_outline outline = {
         .place_m = {state[RHO_X], state[RHO_Y]},
         .velocity_mps = {state[RHO_VX], state[RHO_VY], state[RHO_VZ]},
@@ -58,7 +57,7 @@ struct body_outline rho_bodies_outline_track(const struct rho_look *look, unsign
         .plots = body->plots_a_look,
         .rates_m2ps2 = rho_bodies_limbs_m2ps2(body),
     };
-    rho_body_rotate_covariance(body->cos_heading, body->sin_heading, place_m2, outline.error_m2);
+    rho_body_rotate_covariance(body->cos_heading, body->sin_heading, p, outline.error_m2);
     return outline;
 }
 
@@ -75,12 +74,10 @@ struct body_outline rho_bodies_join_outlines(const struct rho_look *look, unsign
                 across_m = one.cos_heading * dy_m - one.sin_heading * dx_m;
     struct body_outline joint = one;
     float extent_m2[3], turned_m2[3], error_m2[3];
-    const float *p = tracker->tracks[other_row].kalman.covariance;
-    const float place_m2[3] = {p[RHO_AT(RHO_X, RHO_X)], p[RHO_AT(RHO_X, RHO_Y)],
-                               p[RHO_AT(RHO_Y, RHO_Y)]};
     rho_body_place_covariance(&tracker->bodies.of[other_row], extent_m2);
     rho_body_rotate_covariance(one.cos_heading, one.sin_heading, extent_m2, turned_m2);
-    rho_body_rotate_covariance(one.cos_heading, one.sin_heading, place_m2, error_m2);
+    rho_body_rotate_covariance(one.cos_heading, one.sin_heading,
+                               tracker->tracks[other_row].kalman.covariance, error_m2);
     for (unsigned i = 0; i < 3; i++) {
         joint.error_m2[i] = share * one.error_m2[i] + left * error_m2[i];
         joint.velocity_mps[i] += left * (other.velocity_mps[i] - one.velocity_mps[i]);

@@ -40,6 +40,8 @@
  */
 #define PRIOR_SHARE 0.5f
 #define PRIOR_LEAST_M 0.1f
+/* Weight of a look in the mean number of plots. Half or twice: it follows later, or is noisier. */
+#define PLOTS_SHARE 0.07f
 
 /* body_split_evidence.c */
 
@@ -140,10 +142,6 @@
  */
 #define MISSED_MOST 20u
 
-/* body_extents.c */
-
-/* Weight of a look in the mean number of plots. Half or twice: it follows later, or is noisier. */
-#define PLOTS_SHARE 0.07f
 /* plot_groups.c */
 
 /* Sigmas of a plot on a body. Half: its outer plots start tracks. Twice: it takes a neighbour's. */

@@ -11,8 +11,8 @@
 
 /* What the plots of a look say of a turn. */
 struct turn_evidence {
-    float nat;          /* ln of the likelihoods' ratio of a turn to none */
-    float turned, kept; /* plots that speak for it, and against it */
+    float nat, turned,
+        kept; /* ln of the likelihoods' ratio; plots that speak for it, and against */
 };
 
 /* True where a plot is in the gate of the outline's places, and has a range rate. */
@@ -53,9 +53,8 @@ static int next_plot(struct step *step, struct plots_near *near, unsigned row, i
                      uint32_t *plot)
 {
     const struct rho_look *look = &step->look;
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
     while (!rho_work_is_spent(&step->work) && rho_plots_next(look, near, plot)) {
-        const unsigned owner = groups->owner[*plot];
+        const unsigned owner = step->tracker->bodies.groups.owner[*plot];
         rho_work_spend(&step->work, PASS_UNITS);
         if ((owner == RHO_NO_ROW || (is_own_too && owner == row)) &&
             look->fates[*plot] == RHO_FATE_HELD &&
@@ -81,8 +80,7 @@ static struct turn_evidence sum_plots(struct step *step, const struct body_outli
         }
         const float nat = plot_evidence(&fit, turn_mps);
         sum.nat += nat;
-        sum.turned += nat > 0.0f ? 1.0f : 0.0f;
-        sum.kept += nat > 0.0f ? 0.0f : 1.0f;
+        *(nat > 0.0f ? &sum.turned : &sum.kept) += 1.0f;
         if (is_turned && nat > 0.0f) {
             step->tracker->bodies.groups.owner[i] = (uint16_t)row;
         }
@@ -90,16 +88,16 @@ static struct turn_evidence sum_plots(struct step *step, const struct body_outli
     return sum;
 }
 
-float rho_bodies_turn_mps(const struct rho_tracker *tracker)
+float rho_bodies_turn_most_mps(const struct rho_tracker *tracker)
 {
-    return TURN_S * tracker->config.accel_max_mps2;
+    return BODY_GATE_SIGMAS * TURN_S * tracker->config.accel_max_mps2;
 }
 
 void rho_bodies_follow_turns(struct step *step)
 {
     const struct rho_look *look = &step->look;
     struct rho_tracker *tracker = step->tracker;
-    const float turn_mps = rho_bodies_turn_mps(tracker);
+    const float turn_mps = TURN_S * tracker->config.accel_max_mps2;
     if (!look->teaches || !(look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return;
     }

@@ -20,14 +20,6 @@ struct body_side {
     float off[4];
 };
 
-/* The coordinate of a plot that tells the sides apart: along, across or range-rate residual. */
-static float separating_value(enum rho_body_split why, const struct outline_fit *at)
-{
-    return why == RHO_BODY_TOO_LONG   ? at->along_m
-           : why == RHO_BODY_TOO_WIDE ? at->across_m
-                                      : at->rate_mps;
-}
-
 /*
  * Means of the track's own plots on either side of their middle; most_m: the length or width that
  * is exceeded. 0: too near to show two targets.
@@ -40,11 +32,14 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
     float least = 1e30f, most = -1e30f, rate_m2ps2 = 0.0f;
     const struct body_outline outline = rho_bodies_outline_track(look, row);
     struct outline_fit at;
+    const float *value = why == RHO_BODY_TOO_LONG   ? &at.along_m /* tells the sides apart */
+                         : why == RHO_BODY_TOO_WIDE ? &at.across_m
+                                                    : &at.rate_mps;
     for (unsigned i = rho_bodies_next_own_plot(groups, group); i != RHO_NO_ROW;
          i = rho_bodies_next_own_plot(groups, groups->next[i])) {
         rho_bodies_see_plot(look, &outline, &scan->plots[i], &at);
-        least = rho_smaller(least, separating_value(why, &at));
-        most = rho_larger(most, separating_value(why, &at));
+        least = rho_smaller(least, *value);
+        most = rho_larger(most, *value);
         const float sigma_mps = scan->plots[i].sigma_range_rate_mps;
         rate_m2ps2 = rho_larger(rate_m2ps2, sigma_mps * sigma_mps + at.line_turn_m2ps2);
     }
@@ -57,7 +52,7 @@ static int divide_plots(const struct rho_look *look, const struct rho_scan *scan
     for (unsigned i = rho_bodies_next_own_plot(groups, group); i != RHO_NO_ROW;
          i = rho_bodies_next_own_plot(groups, groups->next[i])) {
         rho_bodies_see_plot(look, &outline, &scan->plots[i], &at);
-        struct body_side *side = &sides[separating_value(why, &at) < middle];
+        struct body_side *side = &sides[*value < middle];
         side->plots++;
         const float off[4] = {at.dx_m, at.dy_m, at.sight_line[0] * at.rate_mps,
                               at.sight_line[1] * at.rate_mps};
