@@ -276,6 +276,28 @@ static void a_turn_of_the_body_resets_sums_of_range_rates(void **state)
 }
 
 /*
+ * Four corners at 0.3 m/s, with signs that no plane has: 4 x 0.09 less the noise of three, 3 x 0.01,
+ * over the three plots beyond one of a look. A plane of range rates, as of a turn, is no limbs.
+ */
+static void limbs_are_what_no_plane_explains(void **state)
+{
+    struct look look = usual;
+    (void)state;
+    for (int is_of_limbs = 0; is_of_limbs <= 1; is_of_limbs++) {
+        look.rate_mps = is_of_limbs ? 0.0f : 0.3f;
+        look.twist_mps = is_of_limbs ? 0.3f : 0.0f;
+        make_track_with_body();
+        add_looks(60, 0.05f, &look);
+        const float limbs_m2ps2 = rho_bodies_limbs_m2ps2(&tracker.bodies.of[0]);
+        assert_float_equal(limbs_m2ps2, is_of_limbs ? 0.11f : 0.0f, 0.002f);
+        const struct body_outline outline = rho_bodies_outline_track(&at.look, 0);
+        assert_float_equal(outline.rates_m2ps2, limbs_m2ps2, 0.0f);
+    }
+    make_track_with_body(); /* nothing is known yet */
+    assert_float_equal(rho_bodies_limbs_m2ps2(&tracker.bodies.of[0]), 0.0f, 0.0f);
+}
+
+/*
  * Sixty looks, one each 50 ms, last 0.05 S(59) = 2.10 s. A turn by 2 x 0.1 rad in that time moves
  * parts 4 m off the middle at 0.38 m/s.
  */
@@ -377,6 +399,7 @@ int main(void)
         cmocka_unit_test(too_long_looks_are_forgotten_within_eighty),
         cmocka_unit_test(range_rates_split_a_body_after_thirty_looks),
         cmocka_unit_test(range_rates_of_a_body_of_few_plots_are_ignored),
+        cmocka_unit_test(limbs_are_what_no_plane_explains),
         cmocka_unit_test(a_turn_of_the_body_resets_sums_of_range_rates),
         cmocka_unit_test(range_rates_that_an_unseen_turn_explains_do_not_split),
         cmocka_unit_test(range_rates_that_a_velocity_error_explains_do_not_split),

@@ -120,7 +120,7 @@ static void limbs_spread_range_rates_up_to_twice_their_noise(void **state)
 /* One body in place of two that move apart along the line of sight: its range rates have both. */
 static void one_body_for_two_has_the_range_rates_of_both(void **state)
 {
-    const struct body_outline one = {.place_m = {60.0f, 80.0f},
+    const struct body_outline one = {.place_m = {63.0f, 80.0f},
                                      .velocity_mps = {3.0f, 4.0f},
                                      .cos_heading = 1.0f,
                                      .along_m2 = 1.0f,
@@ -133,7 +133,7 @@ static void one_body_for_two_has_the_range_rates_of_both(void **state)
     assert_int_equal(rho_tracker_set_body_max(&tracker, 10.0f), RHO_OK);
     memset(&tracker.bodies.of[0], 0, 2 * sizeof *tracker.bodies.of);
     begin_look(0, 1.0f);
-    at.look.sensor = NULL;
+    at.look.sensor = &radar;
     for (int is_along = 0; is_along <= 1; is_along++) {
         struct body_outline other = one;
         other.plots = 2.0f;                              /* a quarter of all */

@@ -455,9 +455,26 @@ static void a_plot_far_out_along_the_body_does_not_update_the_width(void **state
     assert_false(does_plot_update_width(3.37)); /* 0.07 is left */
 }
 
+/* A heading that is known from elsewhere: the first one tells width from length, later ones not. */
+static void a_heading_may_be_set(void **state)
+{
+    struct rho_body_filter body;
+    (void)state;
+    rho_body_filter_init(&body, 1, 4.0f, 2.0f);
+    assert_false(body.has_heading);
+    rho_body_set_heading(&body, 0.6f, 0.8f, 0.05f);
+    assert_true(body.has_heading);
+    assert_true(body.cos_heading == 0.6f && body.sin_heading == 0.8f);
+    assert_true(body.heading_sigma_rad == 0.05f && body.across_m2 == 1.0f && body.along_m2 == 4.0f);
+    body.across_m2 = 0.5f;
+    rho_body_set_heading(&body, 0.8f, 0.6f, 0.02f);
+    assert_true(body.cos_heading == 0.8f && body.across_m2 == 0.5f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_heading_may_be_set),
         cmocka_unit_test(length_and_width_are_estimated_without_the_plots_noise),
         cmocka_unit_test(errors_of_length_and_width_agree_with_their_sigmas),
         cmocka_unit_test(one_stray_plot_does_not_widen_a_body_for_long),
