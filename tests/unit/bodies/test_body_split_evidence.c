@@ -276,8 +276,8 @@ static void a_turn_of_the_body_resets_sums_of_range_rates(void **state)
 }
 
 /*
- * Four corners at 0.3 m/s, with signs that no plane has: 4 x 0.09 less the noise of three, 3 x 0.01,
- * over the three plots beyond one of a look. A plane of range rates, as of a turn, is no limbs.
+ * Four corners at 0.3 m/s, with signs that no plane has: 4 x 0.09 less the noise of three plots,
+ * 3 x 0.01, over the three beyond one of a look. A plane of range rates, as of a turn, is no limbs.
  */
 static void limbs_are_what_no_plane_explains(void **state)
 {
