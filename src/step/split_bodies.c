@@ -16,7 +16,7 @@
 
 struct body_side {
     unsigned plots;
-    /* mean of the plots: place (x, y) off the track's in m, range rate as a velocity (x, y) in m/s */
+    /* of the plots' mean: place off the track's, m, then range rate as a velocity, m/s: x, y, x, y */
     float off[4];
 };
 
