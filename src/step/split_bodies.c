@@ -16,7 +16,7 @@
 
 struct body_side {
     unsigned plots;
-    /* of the plots' mean: place off the track's, m, then range rate as a velocity, m/s: x, y, x, y */
+    /* mean of the plots, less the track's: place x, y in m, range rate as a velocity x, y in m/s */
     float off[4];
 };
 
