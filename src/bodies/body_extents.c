@@ -147,11 +147,11 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
     for (unsigned i = 0; i < bodies->count; i++) {
         const struct rho_body_filter *body = &bodies->of[i];
         const struct rho_body_doubt *doubt = &body->doubt;
-        const float counts[] = {doubt->looks, doubt->long_looks, doubt->steady_looks, doubt->time_s,
-                                doubt->sums[BODY_PLOTS_BEYOND_ONE]};
-        const float squares_m2[] = {body->along_m2, body->across_m2, body->prior_m2};
-        const float cosines[] = {body->cos_heading, body->sin_heading, doubt->cos_heading,
-                                 doubt->sin_heading};
+        const float counts[5] = {doubt->looks, doubt->long_looks, doubt->steady_looks,
+                                 doubt->time_s, doubt->sums[BODY_PLOTS_BEYOND_ONE]};
+        const float squares_m2[3] = {body->along_m2, body->across_m2, body->prior_m2};
+        const float cosines[4] = {body->cos_heading, body->sin_heading, doubt->cos_heading,
+                                  doubt->sin_heading};
         int is_sound = is_sound_side(&body->along) && is_sound_side(&body->across) &&
                        rho_is_within(body->aspect, 1.0f, 1e6f) &&
                        rho_is_within(body->plots_a_look, 0.5f, 1e6f) &&

@@ -83,8 +83,8 @@ void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *lo
                 y_m = track->kalman.state[RHO_Y] - (look->sensor ? look->sensor->y_m : 0.0f);
     const float turned_radps =
         rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
-    const float side_m2 =
-        sums->of[RHO_AT(BODY_SIDE, BODY_SIDE)] - mean * sums->values[1] * sums->values[1];
+    const float side_m2 = sums->of[RHO_AT(BODY_SIDE, BODY_SIDE)] -
+                          mean * sums->values[BODY_SIDE] * sums->values[BODY_SIDE];
     for (unsigned i = 0, k = 0; i < 3; i++) {
         for (unsigned j = 0; j <= i; j++, k++) {
             doubt->sums[k] += sums->of[k] - mean * sums->values[i] * sums->values[j];

@@ -11,8 +11,8 @@
 
 /* What the plots of a look say of a turn. */
 struct turn_evidence {
-    float nat, turned,
-        kept; /* ln of the likelihoods' ratio; plots that speak for it, and against */
+    float nat;          /* ln of the likelihoods' ratio of a turn to none */
+    float turned, kept; /* plots that speak for it, and against it */
 };
 
 /* True where a plot is in the gate of the outline's places, and has a range rate. */

@@ -79,19 +79,26 @@ static void a_plot_is_seen_as_the_measurement_has_it(void **state)
     }
 }
 
+/* The only plot of a look, 100 m east. */
+static struct rho_plot *begin_look_with_a_plot(uint32_t measures)
+{
+    use_usual_configs(1);
+    begin_tracker();
+    num_plots = 0;
+    struct rho_plot *plot = add_plot(100.0, 0.0, 1.0);
+    begin_look(0, 1.0f);
+    scan.measures = measures;
+    return plot;
+}
+
 /* What is not measured may be anything. */
 static void range_rates_that_were_not_measured_are_none(void **state)
 {
     const struct body_outline outline = {.velocity_mps = {20.0f, 0.0f, 0.0f}, .cos_heading = 1.0f};
     struct outline_fit fit;
     (void)state;
-    use_usual_configs(1);
-    begin_tracker();
-    num_plots = 0;
-    struct rho_plot *plot = add_plot(100.0, 0.0, 1.0);
+    struct rho_plot *plot = begin_look_with_a_plot(0);
     plot->range_rate_mps = NAN;
-    begin_look(0, 1.0f);
-    scan.measures = 0;
     rho_bodies_see_plot(&at.look, &outline, plot, &fit);
     assert_false(fit.has_rate);
     assert_true(fit.rate_mps == 0.0f && fit.rate_m2ps2 == 0.0f && fit.sight_line[0] == 0.0f);
@@ -103,13 +110,8 @@ static void limbs_spread_range_rates_up_to_twice_their_noise(void **state)
     struct body_outline outline = {.velocity_mps = {1.0f, 0.0f, 0.0f}, .cos_heading = 1.0f};
     struct outline_fit fit;
     (void)state;
-    use_usual_configs(1);
-    begin_tracker();
-    num_plots = 0;
-    struct rho_plot *plot = add_plot(100.0, 0.0, 1.0);
+    struct rho_plot *plot = begin_look_with_a_plot(RHO_MEASURES_RANGE_RATE);
     plot->sigma_range_rate_mps = 0.1f;
-    begin_look(0, 1.0f);
-    scan.measures = RHO_MEASURES_RANGE_RATE;
     for (int percent = 0; percent <= 800; percent += 50) {
         outline.rates_m2ps2 = 1e-4f * (float)percent;
         rho_bodies_see_plot(&at.look, &outline, plot, &fit);
