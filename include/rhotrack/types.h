@@ -304,6 +304,8 @@ static inline int rho_is_finite(float v)
 
 /* True where all `count` values are finite. */
 int rho_are_finite(const float *values, size_t count);
+/* The same of values within lo and hi. */
+int rho_are_within(const float *values, size_t count, float lo, float hi);
 
 /* True where an object may hold a time: within RHO_LIMIT_TIME_US and a plot's offset. */
 int rho_is_stored_time(int64_t time_us);

@@ -56,14 +56,19 @@ int rho_is_within(float v, float lo, float hi)
     return v >= lo && v <= hi && rho_is_finite(v);
 }
 
-int rho_are_finite(const float *values, size_t count)
+int rho_are_within(const float *values, size_t count, float lo, float hi)
 {
     for (size_t i = 0; i < count; i++) {
-        if (!rho_is_within(values[i], -FLT_MAX, FLT_MAX)) {
+        if (!rho_is_within(values[i], lo, hi)) {
             return 0;
         }
     }
     return 1;
+}
+
+int rho_are_finite(const float *values, size_t count)
+{
+    return rho_are_within(values, count, -FLT_MAX, FLT_MAX);
 }
 
 int rho_is_stored_time(int64_t time_us)

@@ -60,16 +60,6 @@ void rho_passive_mark_directions(struct rho_passive_search *search)
     }
 }
 
-/*
- * The bearings of a look that may be within MATCH_SIGMAS of the direction; none where the range is
- * 0 or far too large.
- */
-static rho_bearing_set bearings_near(const rho_bearing_set *bins, struct rho_passive_offset offset)
-{
-    float size_m2 = rho_passive_squared_range_m2(offset);
-    return size_m2 > 1.0f && size_m2 < 1.0e24f ? bins[direction_bin(offset.x_m, offset.y_m)] : 0;
-}
-
 /* Height that the slope of a bearing tells at the state's range, above the state's. */
 static inline float height_above_m(const struct rho_batch_bearing *bearing,
                                    struct rho_passive_offset offset)
@@ -115,9 +105,12 @@ static inline struct nearest find_nearest(const struct rho_passive_search *searc
     const int by_slope = search->has_slopes && ((unsigned)matching & RHO_PASSIVE_BY_SLOPE);
     const struct rho_batch_bearing *bearing = passive->batch.bearings[scan][sensor];
     const uint8_t *is_claimed = passive->is_claimed[scan][sensor];
-    rho_bearing_set left = bearings_near(passive->nearby[scan][sensor], offset);
+    const float range2_m2 = rho_passive_squared_range_m2(offset);
+    const float reach_m2 = rho_square(MATCH_SIGMAS) * range2_m2;
+    const rho_bearing_set *nearby = passive->nearby[scan][sensor]; /* within MATCH_SIGMAS, by bin */
+    rho_bearing_set left =
+        range2_m2 > 1.0f && range2_m2 < 1.0e24f ? nearby[direction_bin(offset.x_m, offset.y_m)] : 0;
     struct nearest nearest = {.bearing = -1, .share = 1.0f};
-    const float reach_m2 = rho_square(MATCH_SIGMAS) * rho_passive_squared_range_m2(offset);
     uint32_t compared = 1;
     for (int i = 0; left > 0; i++, left = (rho_bearing_set)(left >> 1)) {
         if (!(left & 1u)) {

@@ -127,15 +127,6 @@ static int is_sound_side(const struct rho_body_side *side)
            rho_is_within(side->prior_share, 0.0f, 1.0f);
 }
 
-static int are_within(const float *values, unsigned num, float least, float most)
-{
-    int is_each = 1;
-    for (unsigned i = 0; i < num; i++) {
-        is_each &= rho_is_within(values[i], least, most);
-    }
-    return is_each;
-}
-
 int rho_bodies_are_sound(const struct rho_tracker *tracker)
 {
     const struct rho_bodies *bodies = &tracker->bodies;
@@ -160,9 +151,10 @@ int rho_bodies_are_sound(const struct rho_tracker *tracker)
                        rho_is_within(body->slope_weight, 1e-20f, 1e30f) &&
                        rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) &&
                        rho_is_within(body->plots, 1.0f, 1e6f) && rho_is_stored_time(doubt->time_us);
-        is_sound &= are_within(squares_m2, 3, least_m2, 1e12f) & are_within(counts, 5, 0.0f, 1e9f) &
-                    are_within(doubt->sums, RHO_BODY_SUMS, -1e30f, 1e30f) &
-                    are_within(cosines, 4, -1.001f, 1.001f);
+        is_sound &= rho_are_within(squares_m2, 3, least_m2, 1e12f) &
+                    rho_are_within(counts, 5, 0.0f, 1e9f) &
+                    rho_are_within(doubt->sums, RHO_BODY_SUMS, -1e30f, 1e30f) &
+                    rho_are_within(cosines, 4, -1.001f, 1.001f);
         if (!is_sound) {
             return 0;
         }

@@ -125,7 +125,7 @@
  * than one by chance. Half: halves of ships stay two tracks. Twice: people side by side are one.
  */
 #define TWO_LOOK_NAT 0.1f
-#define TWO_PLOT_NAT 0.15f
+#define TWO_PLOT_NAT 0.1f
 /* Most that a look says, either way. Half: second tracks last. Twice: a stray ends known tracks. */
 #define TWO_LOOK_MOST_NAT 4.0f
 /* Evidence at which a track ends. Half: new neighbours are lost. Twice: second tracks are shown. */

@@ -165,7 +165,8 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
     const float squares_m2 = look->across_m2 - 2.0f * k * off * look->cross_m2 +
                              k * k * sum_along_m2 * (off * off + 1.0f / body->slope_weight);
     const float own_m2 = noise_m2 + left * body->along_m2;
-    const float most_m2 = (n + STRAY_SQUARES) * (rho_larger(usual_m2, body->across_m2) + own_m2);
+    const float most_m2 = (n + rho_larger(STRAY_SQUARES, n * STRAY_SQUARES_EACH)) *
+                          (rho_larger(usual_m2, body->across_m2) + own_m2);
     const float sum_m2 = rho_smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
     if (n - gone > LEAST_PLOTS) {
         update_side(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2,

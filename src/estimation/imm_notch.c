@@ -13,7 +13,7 @@ float rho_imm_blind_probability(const struct rho_imm *imm, const struct rho_sens
 void rho_imm_update_by_miss(struct rho_imm *imm, const struct rho_sensor *sensor,
                             const struct rho_notch_look *look)
 {
-    if (!rho_notch_sensor_has_notch(sensor)) {
+    if (!rho_notch_sensor_has_notch(sensor) && !(look->rest_mps > 0.0f)) {
         return;
     }
     imm->is_coupled = 1;

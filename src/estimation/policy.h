@@ -136,9 +136,11 @@
 #define ASPECT_MAX 16.0f
 /*
  * Squares, in variances of a place, that a stray plot or a wrong first heading may add to the sum
- * over n plots. Half: real widths are cut. Twice: one stray plot widens a body for many looks.
+ * over n plots, and the same of many plots, each. Half: real widths are cut, two people abreast are
+ * one for long. Twice: one stray plot widens a body for many looks.
  */
 #define STRAY_SQUARES 12.0f
+#define STRAY_SQUARES_EACH 3.0f
 /*
  * Prior weight, 1 / variance, of the slope of a body's scatterers: 5 scatterers on a body 6 times
  * as long as wide. Half: an error of the first headings is learned as slope. Twice: a real slope

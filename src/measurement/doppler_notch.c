@@ -40,17 +40,17 @@ struct blind_moments_sum {
     float share, first, second;
 };
 
-static struct blind_moments_sum blind_moments(const struct rho_sensor *sensor, float mean_mps,
+static struct blind_moments_sum blind_moments(float notch_mps, float blind_mps, float mean_mps,
                                               float sigma_mps)
 {
     struct blind_moments_sum sum = {0.0f, 0.0f, 0.0f};
-    const float per_sigma = 1.0f / sigma_mps, blind_mps = sensor->blind_speed_mps;
-    const float reach_mps = ZONE_SIGMAS * sigma_mps + sensor->notch_mps;
+    const float per_sigma = 1.0f / sigma_mps;
+    const float reach_mps = ZONE_SIGMAS * sigma_mps + notch_mps;
     /* multiples of the blind speed whose zones are tested */
     int32_t first = 0, last = 0;
     if (blind_mps > 0.0f) {
         if (2.0f * reach_mps > (float)ZONES_MAX * blind_mps) {
-            const float share = 2.0f * sensor->notch_mps / blind_mps;
+            const float share = 2.0f * notch_mps / blind_mps;
             return (struct blind_moments_sum){share, 0.0f, share};
         }
         const float before = (mean_mps - reach_mps) / blind_mps;
@@ -63,8 +63,8 @@ static struct blind_moments_sum blind_moments(const struct rho_sensor *sensor, f
     for (int32_t number = first; number <= last; number++) {
         const float off_mps = (float)number * blind_mps - mean_mps;
         if (off_mps <= reach_mps && off_mps >= -reach_mps) {
-            const float from = (off_mps - sensor->notch_mps) * per_sigma;
-            const float to = (off_mps + sensor->notch_mps) * per_sigma;
+            const float from = (off_mps - notch_mps) * per_sigma;
+            const float to = (off_mps + notch_mps) * per_sigma;
             const float at_from = normal_density(from), at_to = normal_density(to);
             const float share = normal_cdf(to, at_to) - normal_cdf(from, at_from);
             sum.share += share;
@@ -82,13 +82,12 @@ struct component {
     float mean, variance;
 };
 
-/* Returns 0 for a sensor without a notch, and where no range rate can be predicted. */
-static int predict_notched_range_rate(const struct rho_sensor *sensor, const float *state,
-                                      const float *covariance, struct component *view)
+/* Returns 0 where no range rate can be predicted. */
+static int predict_range_rate(const struct rho_sensor *sensor, const float *state,
+                              const float *covariance, struct component *view)
 {
     float projected[6];
-    if (!rho_notch_sensor_has_notch(sensor) ||
-        !rho_measurement_predict_rate(state, sensor, covariance[RHO_AT(2, 2)] > 0.0f, view->row,
+    if (!rho_measurement_predict_rate(state, sensor, covariance[RHO_AT(2, 2)] > 0.0f, view->row,
                                       &view->mean)) {
         return 0;
     }
@@ -100,8 +99,11 @@ float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *
                                   const float *covariance)
 {
     struct component view;
-    return predict_notched_range_rate(sensor, state, covariance, &view)
-               ? blind_moments(sensor, view.mean, rho_sqrt(view.variance)).share
+    return rho_notch_sensor_has_notch(sensor) &&
+                   predict_range_rate(sensor, state, covariance, &view)
+               ? blind_moments(sensor->notch_mps, sensor->blind_speed_mps, view.mean,
+                               rho_sqrt(view.variance))
+                     .share
                : 0.0f;
 }
 
@@ -158,11 +160,15 @@ float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho
                                int num_states, float *state, float *covariance)
 {
     struct component rate;
-    if (!predict_notched_range_rate(sensor, state, covariance, &rate)) {
+    const int rests = look->rest_mps > 0.0f;
+    if (!(rests || rho_notch_sensor_has_notch(sensor)) ||
+        !predict_range_rate(sensor, state, covariance, &rate)) {
         return 1.0f - look->pd;
     }
     const float sigma = rho_sqrt(rate.variance), seen = 1.0f - look->pd;
-    const struct blind_moments_sum blind = blind_moments(sensor, rate.mean, sigma);
+    const float notch_mps = rests ? look->rest_mps : sensor->notch_mps;
+    const struct blind_moments_sum blind =
+        blind_moments(notch_mps, rests ? 0.0f : sensor->blind_speed_mps, rate.mean, sigma);
     const float missed = seen + look->pd * blind.share;
     const float off = look->pd * blind.first / missed;
     float kept = (seen + look->pd * blind.second) / missed - off * off;
@@ -172,7 +178,7 @@ float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho
                                  covariance);
     }
     if (look->may_stand && blind.share > STAND_SHARE * missed) {
-        impose_standing(&rate, sensor->notch_mps, num_states, state, covariance);
+        impose_standing(&rate, notch_mps, num_states, state, covariance);
     }
     return missed;
 }

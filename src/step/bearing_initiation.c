@@ -40,18 +40,6 @@ static int is_ghost_bearing(const struct step *step, float bearing_rad)
     return has_crossings;
 }
 
-/* Row of the track with this identity; RHO_MAX_TRACKS: none that lives. */
-static unsigned find_track(const struct rho_tracker *tracker, uint32_t track_id)
-{
-    for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].track_id == track_id &&
-            tracker->tracks[row].status != RHO_TRACK_FREE) {
-            return row;
-        }
-    }
-    return RHO_MAX_TRACKS;
-}
-
 /* Tracks with bearings in the batch, with the number of these. */
 struct owners_list {
     unsigned num, num_challenged;
@@ -68,7 +56,7 @@ static void add_owner(const struct step *step, struct owners_list *list, uint32_
             return;
         }
     }
-    const unsigned row = *track_id != 0 ? find_track(step->tracker, *track_id) : RHO_MAX_TRACKS;
+    const unsigned row = rho_tracker_find_row(step->tracker, *track_id);
     *track_id = row < RHO_MAX_TRACKS ? *track_id : 0; /* of a track that has ended: nobody's */
     if (row < RHO_MAX_TRACKS && list->num < 2 * RHO_MAX_PASSIVE_TRACKS) {
         const struct rho_track *track = &step->tracker->tracks[row];
@@ -150,12 +138,12 @@ static uint32_t end_beaten_tracks(struct step *step, struct owners_list *list,
     unsigned most = 0;
     for (unsigned i = 0; i < list->num; i++) {
         struct rho_passive_known *known = &list->known[i];
-        known->is_beaten &= find_track(step->tracker, known->track_id) < RHO_MAX_TRACKS;
+        known->is_beaten &= rho_tracker_find_row(step->tracker, known->track_id) < RHO_MAX_TRACKS;
         const unsigned shared =
             known->is_beaten ? count_shared(&step->passive->batch, found, known->track_id) : 0;
         const uint32_t gone_id = shared > most ? heir_id : known->track_id;
         if (shared > 0 && gone_id != 0) {
-            rho_step_end_track(step, find_track(step->tracker, gone_id));
+            rho_step_end_track(step, rho_tracker_find_row(step->tracker, gone_id));
         }
         heir_id = shared > most ? known->track_id : heir_id;
         most = shared > most ? shared : most;
@@ -169,7 +157,7 @@ static int admit_found_track(struct step *step, uint32_t heir_id, const struct r
                              int32_t sensor_id, const struct rho_passive_track *found)
 {
     struct rho_tracker *tracker = step->tracker;
-    const unsigned row = heir_id != 0 ? find_track(tracker, heir_id) : RHO_MAX_TRACKS;
+    const unsigned row = rho_tracker_find_row(tracker, heir_id);
     /* on the scale of starts from plots, by which the life of tracks goes */
     const int32_t start_mnat = step->passive->start_mnat > tracker->start_mnat
                                    ? step->passive->start_mnat

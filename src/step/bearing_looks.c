@@ -154,13 +154,6 @@ static void list_claims(const struct rho_tracker *tracker, struct bearing_claims
     }
 }
 
-/* Probability that a bearing is another track's. */
-static float rival_claim(const struct bearing_claims *claims, unsigned row, uint32_t i)
-{
-    const struct bearing_claim *claim = &claims->of[i];
-    return claim->row == row ? claim->next : claim->most;
-}
-
 /*
  * Weighs the bearings in a track's gate ("Bearings are weighed" in src/DESIGN.md, with these
  * letters). A bearing of more than half of W is claimed. Where another track's bearing lies, a
@@ -188,7 +181,8 @@ static struct gated_bearings weigh_bearings(const struct rho_tracker *tracker,
         if (!score_bearing(look, track, &found.weighed, seen.log_pd, i, &at, &gain_nat)) {
             continue;
         }
-        const float rival = rival_claim(claims, row, i);
+        const struct bearing_claim *claim = &claims->of[i]; /* another track's: `rival` */
+        const float rival = claim->row == row ? claim->next : claim->most;
         const float left = tracker->assignment.column_row[i] == (int)row ? 1.0f : 1.0f - rival;
         const float gain = rho_exp(rho_smaller(gain_nat, RHO_LOOK_LIMIT_NAT));
         const float weight = left * gain;

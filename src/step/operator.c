@@ -4,16 +4,6 @@
 
 #include "phases.h"
 
-/* Row of a track in the tracker's list; num_tracks where no track has the identity. */
-static unsigned row_of_track(const struct rho_tracker *tracker, uint32_t track_id)
-{
-    unsigned row = 0;
-    while (row < tracker->num_tracks && tracker->tracks[row].track_id != track_id) {
-        row++;
-    }
-    return row;
-}
-
 /* Finds a track by its identity, and fills *step to continue the newest step. */
 static enum rho_status resume_at_track(struct rho_tracker *tracker, uint32_t track_id,
                                        struct rho_report *report, struct step *step,
@@ -26,9 +16,9 @@ static enum rho_status resume_at_track(struct rho_tracker *tracker, uint32_t tra
     if (status != RHO_OK) {
         return status;
     }
-    const unsigned row = row_of_track(tracker, track_id);
-    *track = &tracker->tracks[row < tracker->num_tracks ? row : 0];
-    return row < tracker->num_tracks ? RHO_OK : RHO_ERROR_VALUE;
+    const unsigned row = rho_tracker_find_row(tracker, track_id);
+    *track = &tracker->tracks[row < RHO_MAX_TRACKS ? row : 0];
+    return row < RHO_MAX_TRACKS ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
@@ -113,7 +103,7 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         return status;
     }
     if (new_id < 1 || new_id > RHO_LIMIT_TRACK_ID ||
-        row_of_track(tracker, new_id) < tracker->num_tracks) {
+        rho_tracker_find_row(tracker, new_id) < RHO_MAX_TRACKS) {
         return RHO_ERROR_VALUE;
     }
     if (report->num_ended >= RHO_MAX_TRACKS) {

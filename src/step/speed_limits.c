@@ -6,9 +6,8 @@
 
 static float speed2_of(const struct rho_track *track)
 {
-    const float *velocity_mps = &track->kalman.state[3];
-    return velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] +
-           velocity_mps[2] * velocity_mps[2];
+    const float *v_mps = &track->kalman.state[3];
+    return rho_square(v_mps[0]) + rho_square(v_mps[1]) + rho_square(v_mps[2]);
 }
 
 int rho_speed_is_slow(const struct rho_tracker_config *config, const struct rho_track *track)

@@ -59,9 +59,6 @@ void rho_step_end_track(struct step *step, unsigned row)
 /* A new track's life begins: confirmed, or tentative, by its score. */
 static void begin_life(struct step *step, struct rho_track *track, int32_t confirm_mnat)
 {
-    if (RHO_MAX_ECHOES > 0) {
-        rho_echoes_store_start(track);
-    }
     if (RHO_SECTORS) {
         track->ahead_us = track->time_us;
     }

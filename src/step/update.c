@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* update: updates sensor health and learned noise by the assigned plots, and then the tracks. */
+#include "../tracker/sight.h"
 #include "phases.h"
 #include "policy.h"
 
@@ -50,13 +51,14 @@ static void update_hypotheses(struct rho_tracker *tracker, const struct rho_look
     uint32_t refused = pool->updates_refused;
     const float log_miss = rho_score_log_miss(look, track);
     const int assigned = rho_assignment_column(assignment, row);
+    struct rho_notch_look miss;
     const struct rho_hypotheses_scan scan = {
         .time_us = look->time_us,
         .measures = look->scan->measures,
         .plots = look->scan->plots,
         .sensor = look->sensor,
         .log_miss = log_miss,
-        .look = RHO_DOPPLER_NOTCH && track->blind_percent > 0 ? &look->notch_look : 0,
+        .look = rho_look_miss_tells(look, track, &miss) ? &miss : 0,
         .claims = assignment->column_row,
         .own = (int16_t)row,
     };

@@ -44,8 +44,6 @@ void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)
  * that of 1 m/s, and half to be uniform, too.
  */
 float rho_echoes_rate_ratio(const struct rho_look *look, float off_mps, float variance);
-/* Stores the place where a track starts, to tell later whether it has moved. */
-void rho_echoes_store_start(struct rho_track *track);
 /* Sums into a new track the probabilities that its candidate's plots were returns of echoes. */
 void rho_echoes_sum_returns(const struct rho_look *look, const struct rho_candidate *candidate,
                             struct rho_track *track);

@@ -7,7 +7,9 @@
  * takes it out on itself and not on the tracks. A place is a ring of range and an octant of
  * azimuth. Each has the hits there over those that P_D of all looks expects: P_D at a place is that
  * of all looks, times the ratios of its ring and its octant where they are not 1 by chance. Misses
- * before a track ends are taken back from its place: its target has probably left.
+ * before a track ends are taken back from its place: its target has probably left. A track that may
+ * stand, having moved, has a P_D of its own, and teaches no other, as radars leave out what stands;
+ * and a miss tells that it stands on.
  */
 #include <string.h>
 
@@ -76,25 +78,48 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
     const float dy_m = track->kalman.state[1] - (sensor ? sensor->y_m : 0.0f);
     const float far_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     const float most_m = sensor ? sensor->range_max_m : far_m;
-    const unsigned steep = rho_magnitude(dy_m) > rho_magnitude(dx_m);
-    const unsigned quarter = dy_m >= 0.0f ? (dx_m >= 0.0f ? 0u : 1u) : dx_m < 0.0f ? 2u : 3u;
-    const unsigned ring =
-        far_m < most_m ? (unsigned)(far_m / most_m * (float)RHO_LEARN_RINGS) : RHO_LEARN_RINGS - 1u;
-    const unsigned octant = 2u * quarter + (quarter % 2u == 0u ? steep : 1u - steep);
+    const float turns = 0.5f + rho_atan2(dy_m, dx_m) / RHO_TWO_PI;
+    const int ring = rho_cell_at(far_m / most_m * (float)RHO_LEARN_RINGS, RHO_LEARN_RINGS);
+    const int octant = rho_cell_at(turns * 8.0f, RHO_PD_PLACES - RHO_LEARN_RINGS);
     return (struct place){&look->row->places[ring], &look->row->places[RHO_LEARN_RINGS + octant]};
 }
 
-static float pd_at(const struct rho_look *look, struct place at)
+/* True of one that may stand: radars that leave out what stands see less of it. */
+static int is_at_rest(const struct rho_look *look, const struct rho_track *track)
 {
+    const float vx_mps = track->kalman.state[RHO_VX], vy_mps = track->kalman.state[RHO_VY];
+    const float most_mps = rho_smaller(REST_SIGMAS * rho_track_sigma_mps(track),
+                                       REST_SHARE * look->tracker->config.v_max_mps);
+    return track->has_moved && vx_mps * vx_mps + vy_mps * vy_mps < most_mps * most_mps;
+}
+
+/* P_D of a visible target at the track's place; of one at rest its own, if that is less. */
+static float pd_of(const struct rho_look *look, const struct rho_track *track)
+{
+    const struct place at = place_of(look, track);
     const float ratio =
         rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
-    return ratio < 1.0f || ratio > 1.0f ? limit_pd(look->tracker, stated_pd(look), ratio * look->pd)
-                                        : look->pd;
+    const float own = is_at_rest(look, track) ? 1.0f - track->rest_miss : 1.0f;
+    const float pd = rho_smaller(ratio * look->pd, own);
+    return pd < look->pd || pd > look->pd ? limit_pd(look->tracker, stated_pd(look), pd) : pd;
+}
+
+int rho_pd_miss_at_rest(const struct rho_look *look, const struct rho_track *track,
+                        struct rho_notch_look *miss)
+{
+    const float moving = 1.0f - look->pd;
+    if (!is_pd_learned(look) || !is_at_rest(look, track) || !(track->rest_miss > moving)) {
+        return 0;
+    }
+    *miss = (struct rho_notch_look){.pd = 1.0f - moving / track->rest_miss,
+                                    .rest_mps = 0.5f * REST_SHARE * look->tracker->config.v_max_mps,
+                                    .may_stand = 1};
+    return 1;
 }
 
 struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track)
 {
-    const float pd = is_pd_learned(look) ? pd_at(look, place_of(look, track)) : look->pd;
+    const float pd = is_pd_learned(look) ? pd_of(look, track) : look->pd;
     return pd < look->pd || pd > look->pd ? (struct detection){rho_log(pd), rho_log(1.0f - pd)}
                                           : (struct detection){look->log_pd, look->log_miss};
 }
@@ -127,12 +152,16 @@ void rho_pd_count_place(const struct rho_look *look, struct rho_track *track, fl
                         float ratio)
 {
     if (teaches_place(look, track)) {
-        const struct place at = place_of(look, track);
-        const float hit =
-            rho_larger(1.0f - (1.0f - track->seen_share * pd_at(look, at)) / ratio, 0.0f);
-        rho_pd_count(look->row, visible, hit);
-        count_at_both(look, at, visible, visible * hit);
-        track->unseen = (1.0f - hit) * (track->unseen + visible);
+        const float pd = track->seen_share * pd_of(look, track);
+        const float hit = rho_larger(1.0f - (1.0f - pd) / ratio, 0.0f);
+        if (is_at_rest(look, track)) {
+            track->rest_miss += visible * (1.0f - hit - track->rest_miss) / REST_LOOKS;
+        } else {
+            rho_pd_count(look->row, visible, hit);
+            count_at_both(look, place_of(look, track), visible, visible * hit);
+            track->unseen += visible;
+        }
+        track->unseen *= 1.0f - hit;
     }
 }
 

@@ -89,8 +89,7 @@ static void add_echo_density(struct rho_tracker *tracker, const struct rho_look 
     for (uint32_t i; rho_plots_next(look, &near, &i); passed++) {
         const struct rho_plot *plot = &look->scan->plots[i];
         const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
-        if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
-            look->fates[i] != RHO_FATE_HELD) {
+        if (!rho_plots_is_within(&near, plot) || look->fates[i] != RHO_FATE_HELD) {
             continue;
         }
         if (probability < 0.0f) {
@@ -353,13 +352,6 @@ void rho_echoes_sum_returns(const struct rho_look *look, const struct rho_candid
     }
 }
 
-void rho_echoes_store_start(struct rho_track *track)
-{
-    track->start_m[0] = track->kalman.state[0];
-    track->start_m[1] = track->kalman.state[1];
-    track->start_sigma_m = rho_track_sigma_m(track);
-}
-
 static int is_in_set(const uint32_t *set, uint32_t row)
 {
     return (set[row / 32] >> row % 32 & 1u) != 0;
@@ -369,18 +361,14 @@ static int is_in_set(const uint32_t *set, uint32_t row)
  * True where a track is as fast as v_min, or, where targets may stand, has ever left its start; and
  * where an operator started it.
  */
-static int moves_as_target(const struct rho_tracker *tracker, struct rho_track *track)
+static int moves_as_target(const struct rho_tracker *tracker, const struct rho_track *track)
 {
     const float *state = track->kalman.state;
-    const float v_min_mps = tracker->config.v_min_mps;
-    if (track->is_operators || !track->was_confirmed || track->hits < TARGET_TRACK_HITS) {
-        return track->is_operators;
-    }
-    const float dx_m = state[0] - track->start_m[0], dy_m = state[1] - track->start_m[1];
-    const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
-    track->has_moved |= dx_m * dx_m + dy_m * dy_m > far_m * far_m;
-    return v_min_mps > 0.0f ? state[3] * state[3] + state[4] * state[4] >= v_min_mps * v_min_mps
-                            : track->has_moved != 0;
+    const float v_min2 = rho_square(tracker->config.v_min_mps);
+    return track->is_operators ||
+           (v_min2 > 0.0f ? track->was_confirmed && track->hits >= TARGET_TRACK_HITS &&
+                                rho_square(state[RHO_VX]) + rho_square(state[RHO_VY]) >= v_min2
+                          : track->has_moved);
 }
 
 /*
@@ -512,6 +500,5 @@ void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)
 
 int rho_echoes_is_sound_track(const struct rho_track *track)
 {
-    return rho_are_finite(track->returns, RHO_ECHO_HIT_CLASSES) &&
-           rho_are_finite(track->start_m, 2) && rho_are_finite(&track->start_sigma_m, 1);
+    return rho_are_finite(track->returns, RHO_ECHO_HIT_CLASSES);
 }

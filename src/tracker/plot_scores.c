@@ -5,15 +5,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 
-int32_t rho_score_to_mnat(float nat)
-{
-    float mnat = nat * 1000.0f;
-    if (!(mnat > -(float)RHO_ASSIGNMENT_COST_MAX)) {
-        return -RHO_ASSIGNMENT_COST_MAX;
-    }
-    return mnat < (float)RHO_ASSIGNMENT_COST_MAX ? (int32_t)mnat : RHO_ASSIGNMENT_COST_MAX;
-}
-
 void rho_score_open_gate(const struct rho_look *look, const struct rho_track *track,
                          uint32_t measures, struct rho_gate *gate)
 {

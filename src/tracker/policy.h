@@ -117,6 +117,15 @@
 #define PLACE_LOOKS 6.0f
 #define PLACE_SAME 0.1f
 /*
+ * Speeds at rest: sigmas, and share of the largest speed. Half: some who sit are lost. Twice: who
+ * walks slowly teaches no P_D.
+ */
+#define REST_SIGMAS 2.0f
+#define REST_SHARE 0.1f
+/* Misses of who rests, a prior; looks. Half: some who sit are lost. Twice: leavers are kept. */
+#define REST_MISS 0.5f
+#define REST_LOOKS 20.0f
+/*
  * Least P_D of a place over that of all. Half: objects that are seldom seen, as echoes of the
  * second time around, pass for targets there. Twice: P_D is never lowered by place.
  */
@@ -340,7 +349,7 @@
  */
 #define GATE_CIRCLE_SIGMAS 3.0f
 
-/* echo_clutter.c and second_plots.c */
+/* track_life.c, echo_clutter.c, second_plots.c */
 
 /*
  * Hits from which a track that moves is of a target, and above which no track is taken for a second
@@ -348,6 +357,11 @@
  * map for longer, and a neighbouring target's track may still end.
  */
 #define TARGET_TRACK_HITS 12
+/*
+ * Sigmas by which a track has left its start; five are too few with clutter among its plots. Half:
+ * wandering tracks of clutter count as moved. Twice: slow targets stay in the map for longer.
+ */
+#define MOVED_SIGMAS 8.0f
 /*
  * Weight of the prior of a learned rate, in looks or plots: of exact range rates, of a sensor's
  * second plots, and of its rate in that of a track. Half: the first plots decide. Twice: sensors
@@ -357,11 +371,6 @@
 
 /* echo_clutter.c */
 
-/*
- * Sigmas by which a track has left its start; five are too few with clutter among its plots. Half:
- * wandering tracks of clutter count as moved. Twice: slow targets stay in the map for longer.
- */
-#define MOVED_SIGMAS 8.0f
 /*
  * Limit of the NIS of an echo's plot: e^-9 is cut off. Half: plots of an echo's edge raise no
  * density. Twice: nothing changes but the work, as the density there is nearly 0.

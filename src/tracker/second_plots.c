@@ -101,23 +101,6 @@ static void count_plot_not_tried(struct rho_work *work)
     work->plots_not_tried = rho_count(work->plots_not_tried, 1);
 }
 
-/* Finds the live track with this identity by bisection: rows are in the order of identities. */
-static struct rho_track *find_older_track(struct rho_tracker *tracker, uint32_t track_id,
-                                          unsigned end)
-{
-    unsigned first = 0;
-    while (first < end) {
-        const unsigned middle = (first + end) / 2u;
-        if (tracker->tracks[middle].track_id < track_id) {
-            first = middle + 1u;
-        } else {
-            end = middle;
-        }
-    }
-    struct rho_track *track = &tracker->tracks[first];
-    return track->track_id == track_id && track->status != RHO_TRACK_FREE ? track : 0;
-}
-
 static float one_target_probability(const struct rho_track *track)
 {
     return 1.0f / (1.0f + rho_exp(-track->one_target_nat));
@@ -198,13 +181,13 @@ static void test_younger_track(struct step *step, const struct rho_second_plots 
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
-    struct rho_track *older = find_older_track(tracker, track->older_id, row);
-    if (!older) {
+    const unsigned older_row = rho_tracker_find_row(tracker, track->older_id);
+    if (older_row == RHO_MAX_TRACKS) {
         track->older_id = 0;
         track->one_target_nat = 0.0f;
         return;
     }
-    const unsigned older_row = (unsigned)(older - tracker->tracks);
+    struct rho_track *older = &tracker->tracks[older_row];
     const float share = one_target_probability(track);
     older->second_share = share < older->second_share ? share : older->second_share;
     if (!rho_look_has_in_view(&step->look, row) || !rho_look_has_in_view(&step->look, older_row) ||
@@ -279,9 +262,8 @@ static void take_neighbours(struct rho_tracker *tracker, const struct rho_look *
     uint32_t passed = 0;
     for (uint32_t i; rho_plots_next(look, &near, &i); passed++) {
         const struct rho_plot *plot = &look->scan->plots[i];
-        const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
-        if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
-            (int)i == track->plot || look->fates[i] == RHO_FATE_INVALID) {
+        if (!rho_plots_is_within(&near, plot) || (int)i == track->plot ||
+            look->fates[i] == RHO_FATE_INVALID) {
             continue;
         }
         const struct bin_offset offset = plot_offset(look->sensor, first, plot);
@@ -406,14 +388,7 @@ int rho_second_is_sound_track(const struct rho_track *track)
 
 int rho_second_plots_are_sound(const struct rho_second_plots *table)
 {
-    if (!rho_is_within(table->looks, 0.0f, 1e9f) || !rho_is_within(table->plots, 0.0f, 1e9f)) {
-        return 0;
-    }
-    for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
-        if (!rho_is_within(table->along[bin], 0.0f, 1e9f) ||
-            !rho_is_within(table->across[bin], 0.0f, 1e9f)) {
-            return 0;
-        }
-    }
-    return 1;
+    return rho_is_within(table->looks, 0.0f, 1e9f) && rho_is_within(table->plots, 0.0f, 1e9f) &&
+           rho_are_within(table->along, RHO_SECOND_BINS, 0.0f, 1e9f) &&
+           rho_are_within(table->across, RHO_SECOND_BINS, 0.0f, 1e9f);
 }

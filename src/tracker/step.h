@@ -46,6 +46,8 @@ void rho_life_doubt_places(struct rho_tracker *tracker, const struct rho_look *l
 int rho_life_is_sound(const struct rho_track *track);
 /* Ends a track: it stays in the table as FREE until rho_life_remove_ended. */
 void rho_life_end(const struct step *step, struct rho_track *track);
+/* Row of the living track with this identity; RHO_MAX_TRACKS: none. */
+unsigned rho_tracker_find_row(const struct rho_tracker *tracker, uint32_t track_id);
 /* Removes the FREE tracks from the table, with their rows of the assignment. */
 void rho_life_remove_ended(struct rho_tracker *tracker);
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "look.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
@@ -44,6 +44,15 @@ enum rho_track_status rho_track_next_status(enum rho_track_status status,
 void rho_track_apply_event(struct rho_track *track, enum rho_track_event event)
 {
     track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status, event);
+}
+
+int32_t rho_score_to_mnat(float nat)
+{
+    float mnat = nat * 1000.0f;
+    if (!(mnat > -(float)RHO_ASSIGNMENT_COST_MAX)) {
+        return -RHO_ASSIGNMENT_COST_MAX;
+    }
+    return mnat < (float)RHO_ASSIGNMENT_COST_MAX ? (int32_t)mnat : RHO_ASSIGNMENT_COST_MAX;
 }
 
 void rho_track_add_score(struct rho_track *track, int32_t gain_mnat)
@@ -499,11 +508,7 @@ enum rho_status rho_track_commit_scan(struct rho_track *track,
         return status;
     }
     track->plot = -1;
-    const float most_nat = 0.001f * (float)RHO_SCORE_MAX_MNAT;
-    rho_track_add_score(track,
-                        (int32_t)(1000.0f * (outcome.gain_nat < -most_nat  ? -most_nat
-                                             : outcome.gain_nat > most_nat ? most_nat
-                                                                           : outcome.gain_nat)));
+    rho_track_add_score(track, rho_score_to_mnat(outcome.gain_nat));
     if (outcome.row >= 0) {
         store_claimed_plot(
             track, later_update_time_us(track, scan->time_us + scan->plots[outcome.row].offset_us),

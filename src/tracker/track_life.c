@@ -51,6 +51,16 @@ void rho_life_end(const struct step *step, struct rho_track *track)
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
 
+unsigned rho_tracker_find_row(const struct rho_tracker *tracker, uint32_t track_id)
+{
+    unsigned row = 0;
+    while (row < tracker->num_tracks && (tracker->tracks[row].track_id != track_id ||
+                                         tracker->tracks[row].status == RHO_TRACK_FREE)) {
+        row++;
+    }
+    return row < tracker->num_tracks ? row : RHO_MAX_TRACKS;
+}
+
 void rho_life_remove_ended(struct rho_tracker *tracker)
 {
     unsigned live = 0;
@@ -94,7 +104,22 @@ void rho_life_begin(struct rho_track *track, int64_t time_us, int32_t confirm_mn
     track->seen_nat = (float)track->hits * HIT_NAT;
     track->missed = 0.0f;
     track->unseen = 0.0f;
+    track->rest_miss = REST_MISS;
     track->seen_share = 1.0f;
+    track->start_m[0] = track->kalman.state[0];
+    track->start_m[1] = track->kalman.state[1];
+    track->start_sigma_m = rho_track_sigma_m(track);
+}
+
+/* Notes whether the track has surely left the place where it started. */
+static void note_move(struct rho_track *track)
+{
+    const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
+    const float *state = track->kalman.state;
+    track->has_moved |=
+        track->was_confirmed && track->hits >= TARGET_TRACK_HITS &&
+        rho_square(state[0] - track->start_m[0]) + rho_square(state[1] - track->start_m[1]) >
+            far_m * far_m;
 }
 
 struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker)
@@ -200,12 +225,6 @@ static float blind_probability(const struct rho_look *look)
     return 1.0f / (1.0f + seeing);
 }
 
-/* ln of the likelihood of what a look saw with a target over that with an object seldom seen. */
-static float often_nat(float ratio)
-{
-    return rho_log(ratio / (1.0f + SELDOM * (ratio - 1.0f)));
-}
-
 /* Counts for P_D; and evidence that it is a target, not an object that is seldom seen. */
 static void count_seen_or_missed(const struct rho_look *look, struct rho_track *track, float ratio,
                                  float seeing)
@@ -214,7 +233,8 @@ static void count_seen_or_missed(const struct rho_look *look, struct rho_track *
         rho_pd_count_place(look, track, seeing * track->visible, ratio);
     }
     if (ratio > 1.0f) {
-        track->seen_nat += often_nat(ratio);
+        /* likelihood of what the look saw with a target over that with an object seldom seen */
+        track->seen_nat += rho_log(ratio / (1.0f + SELDOM * (ratio - 1.0f)));
     } else {
         /* in misses where the sensor has its usual P_D; the square: about as the logarithms */
         const float share = (1.0f - ratio) / look->pd;
@@ -255,6 +275,7 @@ void rho_life_apply(const struct step *step, struct rho_track *track, int32_t co
     struct rho_tracker *tracker = step->tracker;
     const float exists = rho_track_existence(track);
     const int was_confirmed = track->was_confirmed;
+    note_move(track);
     rho_evidence_count(step, track);
     if (was_confirmed ? exists < ENDED : track->score_mnat < rho_life_least_mnat(tracker)) {
         tracker->gone += rho_life_is_established(track) ? 1.0f : 0.0f;
@@ -293,5 +314,7 @@ int rho_life_is_sound(const struct rho_track *track)
            rho_is_within(track->seen_share, 1e-30f, 1.0f) &&
            rho_is_within(track->look_nat, -1e9f, 1e9f) &&
            rho_is_within(track->seen_nat, 0.0f, 1e9f) && rho_is_within(track->missed, 0.0f, 1e9f) &&
-           rho_is_within(track->unseen, 0.0f, 1e9f) && rho_is_stored_time(track->lived_us);
+           rho_is_within(track->unseen, 0.0f, 1e9f) &&
+           rho_is_within(track->rest_miss, 0.0f, 1.0f) && rho_are_finite(track->start_m, 2) &&
+           rho_are_finite(&track->start_sigma_m, 1) && rho_is_stored_time(track->lived_us);
 }

@@ -87,24 +87,16 @@ float rho_unseen_interval_s(const struct rho_look *look, const struct rho_track 
     return interval_s;
 }
 
-/* True where a sensor covers the track's place, and may still look there. */
-static int is_awaited(const struct rho_look *look, const struct rho_track *track)
-{
-    for (unsigned row = 0; row < look->tracker->num_rows; row++) {
-        if (look->tracker->sensors[row].pace.is_heard && covers_track(look, track, row)) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Total scan rate of the sensors that saw the track last. */
+/* Total scan rate of the sensors that saw the track last; 0 where one may still look there. */
 static float looks_per_s(const struct rho_look *look, const struct rho_track *track)
 {
     float sum = 0.0f;
     for (unsigned row = 0; row < look->tracker->num_rows; row++) {
         const struct rho_tracker_sensor *sensor = &look->tracker->sensors[row];
         const float interval_s = rho_larger(sensor->pace.interval_s, track->seen_every_s);
+        if (sensor->pace.is_heard && covers_track(look, track, row)) {
+            return 0.0f;
+        }
         if (sensor->pace.is_heard && interval_s > 0.0f &&
             is_last_sensor(track, sensor->sensor.sensor_id)) {
             sum += 1.0f / interval_s;
@@ -133,7 +125,7 @@ int rho_unseen_update(const struct rho_look *look, struct rho_track *track)
     }
     const float coast = (float)look->tracker->config.coast_scans_max;
     const float per_s = looks_per_s(look, track);
-    if (per_s > 0.0f && !is_awaited(look, track)) {
+    if (per_s > 0.0f) {
         return unseen_s * per_s >= coast - JITTER;
     }
     const float interval_s = rho_unseen_interval_s(look, track);

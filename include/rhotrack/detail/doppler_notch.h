@@ -30,7 +30,8 @@ RHO_BEGIN_C
 
 /* A look that yields no plot of a target. */
 struct rho_notch_look {
-    float pd; /* probability of detection at range rates outside of the notch */
+    float pd;       /* probability of detection at range rates outside of the notch */
+    float rest_mps; /* above 0: the notch is of a target that rests, so wide, not of the sensor */
     /* 1: a slow target that is missed is taken to stand still */
     uint8_t may_stand;
 };
@@ -55,8 +56,8 @@ float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *
 
 /*
  * Updates an estimate of num_states elements, 6 or 9 (with accelerations), by a look without a
- * plot. Returns the probability of the miss. Cost: as rho_notch_blind_probability, and 5
- * num_states^2.
+ * plot; sensor: NULL, one at the origin. Returns the probability of the miss. Cost: as
+ * rho_notch_blind_probability, and 5 num_states^2.
  */
 float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho_notch_look *look,
                                int num_states, float *state, float *covariance);

@@ -128,7 +128,7 @@ struct rho_hypotheses_scan {
     const struct rho_sensor *sensor; /* sensor of the scan; NULL: one at the origin */
     /* ln(1 - pd), the weight of a miss; 0 where the sensor did not look */
     float log_miss;
-    /* the look of a sensor that is blind at some range rates; NULL: at none */
+    /* what a miss tells of the range rate: of a sensor blind at some, of rest; NULL: nothing */
     const struct rho_notch_look *look;
     /* claiming track of each row of plots, -1: none; own: this track. NULL: all are free */
     const int16_t *claims;

@@ -126,6 +126,7 @@ struct rho_track {
     uint8_t blind_percent;
     uint8_t is_frozen; /* an operator has frozen the track: it coasts, and does not end */
     float start_m[2], start_sigma_m;
+    float rest_miss; /* share of looks that missed it while it rested, of the last ones mostly */
     float plot_m[2], plot_sigma_m; /* last claimed plot; sigma 0: none yet */
     /* scans with a plot of the track, and second plots near these; both are halved now and then */
     float second_looks, second_plots;

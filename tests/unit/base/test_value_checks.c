@@ -190,6 +190,20 @@ static void nan_and_infinity_are_not_finite(void **state)
     }
 }
 
+static void each_of_several_values_is_within_both_limits(void **state)
+{
+    (void)state;
+    for (size_t place = 0; place < 3; place++) {
+        float values[3] = {-1.0f, 0.5f, 2.0f};
+        assert_true(rho_are_within(values, 3, -1.0f, 2.0f));
+        values[place] = place % 2 ? nextafterf(2.0f, 3.0f) : nextafterf(-1.0f, -2.0f);
+        assert_false(rho_are_within(values, 3, -1.0f, 2.0f));
+        assert_true(rho_are_within(values, place, -1.0f, 2.0f));
+        values[place] = NAN;
+        assert_false(rho_are_within(values, 3, -1.0f, 2.0f));
+    }
+}
+
 static void coordinates_beyond_their_limit_are_refused(void **state)
 {
     (void)state;
@@ -229,6 +243,7 @@ int main(void)
         cmocka_unit_test(values_that_are_not_finite_are_in_no_range),
         cmocka_unit_test(the_noise_of_a_plot_is_its_larger_horizontal_sigma),
         cmocka_unit_test(nan_and_infinity_are_not_finite),
+        cmocka_unit_test(each_of_several_values_is_within_both_limits),
         cmocka_unit_test(coordinates_beyond_their_limit_are_refused),
         cmocka_unit_test(stored_times_may_exceed_the_time_limit_by_an_offset),
     };

@@ -173,6 +173,31 @@ static void one_stray_plot_does_not_widen_a_body_for_long(void **state)
 }
 
 /*
+ * Two people abreast: the body of both is three times as wide as that of one. Held to 12 squares
+ * more than of the old width, 30 plots a look did not show it for seconds.
+ */
+static void many_plots_show_within_half_a_second_that_a_body_is_wider(void **state)
+{
+    struct rho_body_filter body;
+    struct rho_body shape;
+    (void)state;
+    random_state = 8;
+    rho_body_filter_init(&body, 1, 0.0133f, 1.0f);
+    set_velocity(&body, 1.0f, 0.0f, 0.0f);
+    for (int k = 0; k < 5; k++) {
+        struct rho_body_look look = {0};
+        for (int i = 0; i < 30; i++) {
+            const double aside_m = i % 2 ? 0.3 : -0.3;
+            add_plot_to_look(&look, uniform(-0.2, 0.2) + 0.15 * normal(),
+                             aside_m + uniform(-0.2, 0.2) + 0.15 * normal(), 0.15);
+        }
+        rho_body_add_plots(&body, &look);
+    }
+    rho_body_shape(&body, &shape);
+    assert_true(shape.width_m > 0.9f && shape.width_m < 1.3f);
+}
+
+/*
  * If all scatterers are seen the mean is known; the variance rises with the share that is missed.
  */
 static void the_variance_of_the_mean_follows_the_share_of_missed_scatterers(void **state)
@@ -340,7 +365,7 @@ static void update_width(struct reference *body, const struct rho_body_look *loo
     const double left_m2 = pow(1.0 - k, 2.0) * turned * body->along_m2, own_m2 = noise_m2 + left_m2;
     const double squares_m2 = (double)look->across_m2 - 2.0 * k * off * (double)look->cross_m2 +
                               k * k * along_m2 * (off * off + 1.0 / body->slope_weight);
-    const double most_m2 = (n + 12.0) * (fmax(usual_m2, body->across_m2) + own_m2);
+    const double most_m2 = (n + fmax(12.0, 3.0 * n)) * (fmax(usual_m2, body->across_m2) + own_m2);
     if (n - gone > 0.1) {
         update_axis(&body->across, usual_m2,
                     (fmin(squares_m2, most_m2) - (n - gone) * noise_m2) / (n - missed * gone) -
@@ -478,6 +503,7 @@ int main(void)
         cmocka_unit_test(length_and_width_are_estimated_without_the_plots_noise),
         cmocka_unit_test(errors_of_length_and_width_agree_with_their_sigmas),
         cmocka_unit_test(one_stray_plot_does_not_widen_a_body_for_long),
+        cmocka_unit_test(many_plots_show_within_half_a_second_that_a_body_is_wider),
         cmocka_unit_test(the_variance_of_the_mean_follows_the_share_of_missed_scatterers),
         cmocka_unit_test(the_heading_follows_velocities_that_are_well_known),
         cmocka_unit_test(rotating_a_covariance_to_body_axes_and_back_restores_it),

@@ -169,6 +169,30 @@ static void a_miss_without_a_doppler_notch_changes_nothing(void **state)
     assert_memory_equal(&at, &before, sizeof at);
 }
 
+/* A target at rest is seen less by any radar: its notch is its own, and the radar's has no say. */
+static void a_miss_at_rest_is_as_one_in_a_notch_so_wide(void **state)
+{
+    static const float rates_mps[] = {0.0f, 0.1f, -0.3f, 2.0f};
+    const struct rho_sensor rest = radar_with_notch(0.15f, 0.0f),
+                            none = radar_with_notch(0.0f, 0.0f),
+                            other = radar_with_notch(8.0f, 50.0f);
+    const struct rho_notch_look look = {.pd = 0.8f}, own = {.pd = 0.8f, .rest_mps = 0.15f};
+    (void)state;
+    for (size_t i = 0; i < sizeof rates_mps / sizeof rates_mps[0]; i++) {
+        const struct estimate before = make_estimate(rates_mps[i], 0.0f, 0.2f);
+        struct estimate at = before, one = before, two = before, three = before;
+        const float missed = rho_notch_update_by_miss(&rest, &look, 9, at.state, at.covariance);
+        assert_true(rho_notch_update_by_miss(&none, &own, 9, one.state, one.covariance) == missed);
+        assert_true(rho_notch_update_by_miss(&other, &own, 9, two.state, two.covariance) == missed);
+        assert_true(rho_notch_update_by_miss(NULL, &own, 9, three.state, three.covariance) ==
+                    missed);
+        assert_memory_equal(&one, &at, sizeof at);
+        assert_memory_equal(&two, &at, sizeof at);
+        assert_memory_equal(&three, &at, sizeof at);
+        assert_true(i == 3 || at.covariance[RHO_AT(3, 3)] < before.covariance[RHO_AT(3, 3)]);
+    }
+}
+
 /* With may_stand a slow target is taken to stand: its velocity across goes to 0, too. */
 static void a_missed_slow_target_is_taken_to_stand(void **state)
 {
@@ -312,6 +336,7 @@ int main(void)
         cmocka_unit_test(correlated_states_move_with_the_range_rate),
         cmocka_unit_test(the_range_rate_is_seen_from_the_sensors_place),
         cmocka_unit_test(a_miss_without_a_doppler_notch_changes_nothing),
+        cmocka_unit_test(a_miss_at_rest_is_as_one_in_a_notch_so_wide),
         cmocka_unit_test(a_missed_slow_target_is_taken_to_stand),
         cmocka_unit_test(targets_stand_within_two_sigmas_and_two_notch_widths),
         cmocka_unit_test(a_target_stands_if_the_notch_explains_the_miss),

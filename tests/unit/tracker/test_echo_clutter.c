@@ -264,6 +264,8 @@ static int do_twelve_hits_make_a_target(uint16_t hits, float v_min_mps, float mo
         track->kalman.covariance[RHO_AT(axis, axis)] = 25.0f;
         track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
     }
+    track->visible = 1.0f;
+    rho_life_apply(&at, track, 0);
     rho_echoes_update(&tracker, &at.look);
     return track->has_taken_back;
 }
