@@ -134,8 +134,8 @@
  * Evidence by a look apart from all others, and its sum at most. Half: two who meet become one.
  * Twice: a second track that was once apart stays.
  */
-#define APART_NAT 1.0f
-#define TWO_MOST_NAT 30.0f
+#define APART_NAT 2.0f
+#define TWO_MOST_NAT 60.0f
 /*
  * Hits of a track that may replace one which was lost for as long. Half: who is hidden as he turns
  * gets a new number. Twice: his number goes to another who is seen later.

@@ -149,7 +149,7 @@ static void who_was_long_apart_is_asked_where_plots_are_contested(void **state)
     for (int is_contested = 0; is_contested < 2; is_contested++) {
         uint32_t spent = 0;
         make_two_tracks(0.5f, 0.0f, 1000);
-        tracker.bodies.of[1].two_nat = 30.0f;
+        tracker.bodies.of[1].two_nat = 60.0f;
         for (unsigned look = 1; look <= 200 && tracker.tracks[1].status; look++) {
             see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
             tracker.bodies.groups.contender[5] = is_contested ? 0 : UINT16_MAX;
@@ -168,7 +168,7 @@ static void what_is_known_to_be_two_stays_two(void **state)
     for (int is_known = 0; is_known < 2; is_known++) {
         unsigned ended = 0;
         make_two_tracks(4.3f, 0.0f, 1000);
-        tracker.bodies.of[1].two_nat = is_known ? 30.0f : 0.0f;
+        tracker.bodies.of[1].two_nat = is_known ? 60.0f : 0.0f;
         for (unsigned look = 1; look <= 1000 && !ended; look++) {
             see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
             scan.measures = 0; /* range rates would tell them: a lorry turns now and then */
@@ -187,7 +187,7 @@ static void a_track_apart_becomes_known(void **state)
     for (unsigned look = 1; look <= 40; look++) {
         see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
         rho_bodies_end_duplicates(&at);
-        assert_float_equal(tracker.bodies.of[1].two_nat, look < 30 ? (float)look : 30.0f, 1e-3);
+        assert_float_equal(tracker.bodies.of[1].two_nat, look < 30 ? 2.0f * (float)look : 60.0f, 1e-3);
     }
 }
 
