@@ -187,7 +187,8 @@ static void a_track_apart_becomes_known(void **state)
     for (unsigned look = 1; look <= 40; look++) {
         see_bodies(look, (const float[2]){0.0f, 0.0f}, alike_mps);
         rho_bodies_end_duplicates(&at);
-        assert_float_equal(tracker.bodies.of[1].two_nat, look < 30 ? 2.0f * (float)look : 60.0f, 1e-3);
+        assert_float_equal(tracker.bodies.of[1].two_nat, look < 30 ? 2.0f * (float)look : 60.0f,
+                           1e-3);
     }
 }
 
