@@ -274,7 +274,7 @@
 #define RHO_AMBIGUOUS_RANGE_RATES 1
 #endif
 
-/* 1: sensors may be blind at some range rates. 0: left out (2.3 KB less on a Cortex-M4). */
+/* 1: sensors may be blind at some range rates, and who rests. 0: left out (2.4 KB, Cortex-M4). */
 #ifndef RHO_DOPPLER_NOTCH
 #define RHO_DOPPLER_NOTCH 1
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* imm_notch: updates both models of a filter by a miss of a radar with a Doppler notch. */
+/* imm_notch: updates both models of a filter by a miss that tells of the range rate. */
 #include "rhotrack/detail/imm_notch.h"
 
 float rho_imm_blind_probability(const struct rho_imm *imm, const struct rho_sensor *sensor)

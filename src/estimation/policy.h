@@ -136,8 +136,8 @@
 #define ASPECT_MAX 16.0f
 /*
  * Squares, in variances of a place, that a stray plot or a wrong first heading may add to the sum
- * over n plots, and the same of many plots, each. Half: real widths are cut, two people abreast are
- * one for long. Twice: one stray plot widens a body for many looks.
+ * over n plots, and what each of many plots may. Half: real widths are cut, two people abreast are
+ * one for long. Twice: one stray plot, or some, widen a body for many looks.
  */
 #define STRAY_SQUARES 12.0f
 #define STRAY_SQUARES_EACH 3.0f

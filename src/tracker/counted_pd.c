@@ -84,37 +84,50 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
     return (struct place){&look->row->places[ring], &look->row->places[RHO_LEARN_RINGS + octant]};
 }
 
-/* True of one that may stand: radars that leave out what stands see less of it. */
+/*
+ * True of one that may stand, having moved, to the sensor that saw it last: radars that leave out
+ * what stands see less of it. What a notch explains is left to the notch.
+ */
 static int is_at_rest(const struct rho_look *look, const struct rho_track *track)
 {
-    const float vx_mps = track->kalman.state[RHO_VX], vy_mps = track->kalman.state[RHO_VY];
-    const float most_mps = rho_smaller(REST_SIGMAS * rho_track_sigma_mps(track),
-                                       REST_SHARE * look->tracker->config.v_max_mps);
-    return track->has_moved && vx_mps * vx_mps + vy_mps * vy_mps < most_mps * most_mps;
+    const struct rho_tracker_config *config = &look->tracker->config;
+    const float *state = track->kalman.state, *p = track->kalman.covariance;
+    const float variance = 0.5f * (p[RHO_AT(RHO_VX, RHO_VX)] + p[RHO_AT(RHO_VY, RHO_VY)]);
+    return track->has_moved && !(config->v_min_mps > 0.0f) &&
+           track->sensor_id == look->row->sensor.sensor_id &&
+           track->blind_percent <= BLIND_PERCENT_MAX &&
+           rho_square(state[RHO_VX]) + rho_square(state[RHO_VY]) <
+               rho_smaller(rho_square(REST_SIGMAS) * variance,
+                           rho_square(REST_SHARE * config->v_max_mps));
+}
+
+/* P_D at the track's place, at most `own`. */
+static float pd_at_place(const struct rho_look *look, const struct rho_track *track, float own)
+{
+    const struct place at = place_of(look, track);
+    const float ratio =
+        rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
+    const float pd = rho_smaller(ratio * look->pd, own);
+    return pd < look->pd || pd > look->pd ? limit_pd(look->tracker, stated_pd(look), pd) : pd;
 }
 
 /* P_D of a visible target at the track's place; of one at rest its own, if that is less. */
 static float pd_of(const struct rho_look *look, const struct rho_track *track)
 {
-    const struct place at = place_of(look, track);
-    const float ratio =
-        rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
-    const float own = is_at_rest(look, track) ? 1.0f - track->rest_miss : 1.0f;
-    const float pd = rho_smaller(ratio * look->pd, own);
-    return pd < look->pd || pd > look->pd ? limit_pd(look->tracker, stated_pd(look), pd) : pd;
+    return pd_at_place(look, track, is_at_rest(look, track) ? 1.0f - track->rest_miss : 1.0f);
 }
 
 int rho_pd_miss_at_rest(const struct rho_look *look, const struct rho_track *track,
                         struct rho_notch_look *miss)
 {
-    const float moving = 1.0f - look->pd;
-    if (!is_pd_learned(look) || !is_at_rest(look, track) || !(track->rest_miss > moving)) {
+    if (!is_pd_learned(look) || !is_at_rest(look, track)) {
         return 0;
     }
-    *miss = (struct rho_notch_look){.pd = 1.0f - moving / track->rest_miss,
+    const float moving = 1.0f - pd_at_place(look, track, 1.0f);
+    *miss = (struct rho_notch_look){.pd = 1.0f - moving / rho_larger(track->rest_miss, moving),
                                     .rest_mps = 0.5f * REST_SHARE * look->tracker->config.v_max_mps,
                                     .may_stand = 1};
-    return 1;
+    return miss->pd > 0.0f;
 }
 
 struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track)

@@ -108,9 +108,9 @@ uint32_t rho_work_left_for_search(const struct rho_look *look, struct rho_work *
 void rho_work_record(struct rho_tracker *tracker, const struct rho_work *work,
                      struct rho_report *report);
 
-/* plot_scores.c: scores of pairs of a track and a plot or bearing, for the assignment */
-/* Converts nats to integer thousandths, within the range of the assignment's costs. */
+/* track.c: converts nats to integer thousandths, within the range of the assignment's costs. */
 int32_t rho_score_to_mnat(float nat);
+/* plot_scores.c: scores of pairs of a track and a plot or bearing, for the assignment */
 /* Makes the gate of a track about its merged estimate. measures: of the scan; 0 for bearings. */
 void rho_score_open_gate(const struct rho_look *look, const struct rho_track *track,
                          uint32_t measures, struct rho_gate *gate);

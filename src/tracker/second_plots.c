@@ -182,7 +182,7 @@ static void test_younger_track(struct step *step, const struct rho_second_plots 
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
     const unsigned older_row = rho_tracker_find_row(tracker, track->older_id);
-    if (older_row == RHO_MAX_TRACKS) {
+    if (older_row >= row) { /* it has ended, or an operator has changed the order */
         track->older_id = 0;
         track->one_target_nat = 0.0f;
         return;

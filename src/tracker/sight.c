@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * sight: would this look see this track? Answers, each with its contributors in their order:
- * whether it may see the track at all, whether no plot is then a miss, what a miss tells of the
- * velocity, and how probable a plot is.
+ * sight: would this look see this track? Three answers, each with its contributors in their order:
+ * whether it may see the track at all, whether no plot is then a miss, and how probable a plot is.
  */
 #include "sensors.h"
 
@@ -22,14 +21,6 @@ int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track
     }
     return rho_coverage_holds_track(look, look->scan->sector_from_rad, look->scan->sector_to_rad,
                                     track);
-}
-
-int rho_look_miss_tells(const struct rho_look *look, const struct rho_track *track,
-                        struct rho_notch_look *miss)
-{
-    *miss = look->notch_look;
-    return RHO_DOPPLER_NOTCH &&
-           (track->blind_percent > 0 || rho_pd_miss_at_rest(look, track, miss));
 }
 
 struct detection rho_look_visible(const struct rho_look *look, const struct rho_track *track)

@@ -22,7 +22,7 @@ void rho_pd_count_place(const struct rho_look *look, struct rho_track *track, fl
                         float ratio);
 /* Takes a track's last misses back from its place: it ends, and its target was probably gone. */
 void rho_pd_take_back(const struct rho_look *look, const struct rho_track *track);
-/* Whether a miss of the track tells that it stands on, and how likely the miss is if not. */
+/* Whether a miss of the track tells that it stands on; *miss: how much, as of one in a notch. */
 int rho_pd_miss_at_rest(const struct rho_look *look, const struct rho_track *track,
                         struct rho_notch_look *miss);
 /* Detection at a track's place, outside of the notch. */
@@ -36,9 +36,6 @@ struct detection rho_pd_detection(const struct rho_look *look, const struct rho_
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
 int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track);
-/* Whether a miss of the track tells of its velocity: it is in the notch, or at rest. */
-int rho_look_miss_tells(const struct rho_look *look, const struct rho_track *track,
-                        struct rho_notch_look *miss);
 /* Detection of the track's target; of one that is surely visible. */
 struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track);
 struct detection rho_look_visible(const struct rho_look *look, const struct rho_track *track);

@@ -111,13 +111,14 @@ void rho_life_begin(struct rho_track *track, int64_t time_us, int32_t confirm_mn
     track->start_sigma_m = rho_track_sigma_m(track);
 }
 
-/* Notes whether the track has surely left the place where it started. */
-static void note_move(struct rho_track *track)
+/* Notes, at a plot, whether the track has surely left the place where it started. */
+static void note_move(const struct rho_look *look, struct rho_track *track)
 {
     const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
     const float *state = track->kalman.state;
     track->has_moved |=
-        track->was_confirmed && track->hits >= TARGET_TRACK_HITS &&
+        look->scan && look->teaches && track->plot >= 0 && track->was_confirmed &&
+        track->hits >= TARGET_TRACK_HITS &&
         rho_square(state[0] - track->start_m[0]) + rho_square(state[1] - track->start_m[1]) >
             far_m * far_m;
 }
@@ -275,7 +276,7 @@ void rho_life_apply(const struct step *step, struct rho_track *track, int32_t co
     struct rho_tracker *tracker = step->tracker;
     const float exists = rho_track_existence(track);
     const int was_confirmed = track->was_confirmed;
-    note_move(track);
+    note_move(&step->look, track);
     rho_evidence_count(step, track);
     if (was_confirmed ? exists < ENDED : track->score_mnat < rho_life_least_mnat(tracker)) {
         tracker->gone += rho_life_is_established(track) ? 1.0f : 0.0f;

@@ -104,21 +104,18 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
             return 0;
         }
     }
-    return rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
+    const float counts[] = {
+        tracker->unclaimed_plots, tracker->lived,           tracker->gone,
+        tracker->returned,        tracker->seldom,          tracker->straight_s,
+        tracker->turning_s,       tracker->wanted_per_hour, tracker->established};
+    return rho_are_within(counts, sizeof counts / sizeof counts[0], 0.0f, 1e9f) &&
+           rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
            rho_is_stored_time(tracker->time_us) && rho_is_stored_time(tracker->counted_us) &&
            rho_tracker_is_score_in_range(tracker->start_mnat) &&
            rho_tracker_is_score_in_range(tracker->confirm_mnat) &&
-           rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
            rho_is_within(tracker->clutter_per_m2, 0.0f, 1e30f) &&
-           rho_is_within(tracker->lived, 0.0f, 1e9f) && rho_is_within(tracker->gone, 0.0f, 1e9f) &&
-           rho_is_within(tracker->returned, 0.0f, 1e9f) &&
-           rho_is_within(tracker->seldom, 0.0f, 1e9f) &&
-           rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&
-           rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&
-           rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
-           rho_is_within(tracker->established, 0.0f, 1e9f) && rho_is_coordinate(extent->x_min_m) &&
-           rho_is_coordinate(extent->x_max_m) && rho_is_coordinate(extent->y_min_m) &&
-           rho_is_coordinate(extent->y_max_m) &&
+           rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
+           rho_is_coordinate(extent->y_min_m) && rho_is_coordinate(extent->y_max_m) &&
            (RHO_MAX_REFLECTORS == 0 || rho_images_are_sound(tracker)) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || rho_areas_are_sound(tracker)) &&
            (!RHO_BODIES || rho_bodies_are_sound(tracker)) &&

@@ -31,7 +31,7 @@ RHO_BEGIN_C
 /* A look that yields no plot of a target. */
 struct rho_notch_look {
     float pd;       /* probability of detection at range rates outside of the notch */
-    float rest_mps; /* above 0: the notch is of a target that rests, so wide, not of the sensor */
+    float rest_mps; /* above 0: half width of the target's own notch, at rest; pd: over rest's */
     /* 1: a slow target that is missed is taken to stand still */
     uint8_t may_stand;
 };

@@ -12,7 +12,7 @@ RHO_BEGIN_C
 float rho_imm_blind_probability(const struct rho_imm *imm, const struct rho_sensor *sensor);
 
 /*
- * Updates models and probabilities by a miss if there is a notch: rho_notch_update_by_miss twice.
+ * Updates models and probabilities by a miss if sensor or look has one: rho_notch_update_by_miss.
  */
 void rho_imm_update_by_miss(struct rho_imm *imm, const struct rho_sensor *sensor,
                             const struct rho_notch_look *look);

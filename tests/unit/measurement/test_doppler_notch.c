@@ -176,9 +176,12 @@ static void a_miss_at_rest_is_as_one_in_a_notch_so_wide(void **state)
     const struct rho_sensor rest = radar_with_notch(0.15f, 0.0f),
                             none = radar_with_notch(0.0f, 0.0f),
                             other = radar_with_notch(8.0f, 50.0f);
-    const struct rho_notch_look look = {.pd = 0.8f}, own = {.pd = 0.8f, .rest_mps = 0.15f};
     (void)state;
-    for (size_t i = 0; i < sizeof rates_mps / sizeof rates_mps[0]; i++) {
+    for (size_t k = 0; k < 2 * sizeof rates_mps / sizeof rates_mps[0]; k++) {
+        const size_t i = k / 2;
+        const uint8_t may_stand = k % 2;
+        const struct rho_notch_look look = {.pd = 0.8f, .may_stand = may_stand},
+                                    own = {.pd = 0.8f, .rest_mps = 0.15f, .may_stand = may_stand};
         const struct estimate before = make_estimate(rates_mps[i], 0.0f, 0.2f);
         struct estimate at = before, one = before, two = before, three = before;
         const float missed = rho_notch_update_by_miss(&rest, &look, 9, at.state, at.covariance);

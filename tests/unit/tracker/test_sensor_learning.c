@@ -286,6 +286,8 @@ static void who_stands_has_a_pd_of_its_own(void **state)
     speeds2 = 0.0;
     for (uint64_t seed = 62; seed < 67; seed++) {
         start_tracker(seed);
+        config.v_min_mps = 0.0f;
+        begin_tracker();
         const struct rho_tracker_known known = known_after(&radar, 150);
         assert_float_equal(known.pd[1], 0.9f, 0.03f);
         assert_float_equal(known.pd[4], 0.9f, 0.03f);
@@ -293,7 +295,7 @@ static void who_stands_has_a_pd_of_its_own(void **state)
     }
     assert_true(doubts <= 50);
     /* a miss tells that it stands on: else 1.9 m/s */
-    assert_true(standing > 1000 && sqrt(speeds2 / standing) < 1.2);
+    assert_true(standing > 1000 && (!RHO_DOPPLER_NOTCH || sqrt(speeds2 / standing) < 1.2));
 }
 
 /* A build without hypotheses learns nothing, too. */
