@@ -152,7 +152,7 @@ tracker_must_find src/bearings/recent_bearing_frames.c \
     'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 tracker_must_find src/step/operator.c 'an identity given to two tracks' \
-    's/row_of_track\(tracker, new_id\) < tracker->num_tracks/0/'
+    's/rho_tracker_find_row\(tracker, new_id\) < RHO_MAX_TRACKS/0/'
 tracker_must_find src/estimation/body_extent_filter.c 'a body of negative width' \
     's/(shape->width_m =) (side_length_m)/\1 -\2/'
 must_pass fuzz_tracker_small src/step/report.c
