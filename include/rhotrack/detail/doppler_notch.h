@@ -15,7 +15,7 @@
  * the mean and variance of this density, as a measurement of r would. A target that was braking is
  * thereby held in the notch until it is seen again.
  *
- * Stack: 250 bytes at most.
+ * Stack: 270 bytes at most.
  */
 #ifndef RHOTRACK_DOPPLER_NOTCH_H
 #define RHOTRACK_DOPPLER_NOTCH_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* imm_notch: an IMM filter and a radar's Doppler notch. Stack: 280 bytes at most. */
+/* imm_notch: an IMM filter and a radar's Doppler notch. Stack: 300 bytes at most. */
 #ifndef RHOTRACK_IMM_NOTCH_H
 #define RHOTRACK_IMM_NOTCH_H
 
