@@ -238,10 +238,14 @@ static void pd_is_learned_by_range(void **state)
     radar.pd_stated = 0.95;
     radar.pd = 0.95;
     radar.pd_far = 0.6;
-    start_tracker(50);
-    const struct rho_tracker_known known = known_after(&radar, 150);
-    assert_float_equal(known.pd[1], 0.95f, 0.03f);
-    assert_float_equal(known.pd[4], 0.6f, 0.05f);
+    double far = 0.0; /* mean over four runs: of one it varies by 0.02 */
+    for (uint64_t seed = 50; seed < 54; seed++) {
+        start_tracker(seed);
+        const struct rho_tracker_known known = known_after(&radar, 150);
+        assert_float_equal(known.pd[1], 0.95f, 0.03f);
+        far += 0.25 * (double)known.pd[4];
+    }
+    assert_between(far, 0.57, 0.7);
 }
 
 /* Counts doubts of established tracks, in five runs of targets seen in half of the scans. */
@@ -286,8 +290,6 @@ static void who_stands_has_a_pd_of_its_own(void **state)
     speeds2 = 0.0;
     for (uint64_t seed = 62; seed < 67; seed++) {
         start_tracker(seed);
-        config.v_min_mps = 0.0f;
-        begin_tracker();
         const struct rho_tracker_known known = known_after(&radar, 150);
         assert_float_equal(known.pd[1], 0.9f, 0.03f);
         assert_float_equal(known.pd[4], 0.9f, 0.03f);
