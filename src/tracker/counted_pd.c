@@ -78,9 +78,9 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
     const float dy_m = track->kalman.state[1] - (sensor ? sensor->y_m : 0.0f);
     const float far_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     const float most_m = sensor ? sensor->range_max_m : far_m;
-    const float turns = 0.5f + rho_atan2(dy_m, dx_m) / RHO_TWO_PI;
     const int ring = rho_cell_at(far_m / most_m * (float)RHO_LEARN_RINGS, RHO_LEARN_RINGS);
-    const int octant = rho_cell_at(turns * 8.0f, RHO_PD_PLACES - RHO_LEARN_RINGS);
+    const unsigned octant = (dy_m >= 0.0f ? 1u : 0u) + (dx_m >= 0.0f ? 2u : 0u) +
+                            (rho_magnitude(dy_m) > rho_magnitude(dx_m) ? 4u : 0u);
     return (struct place){&look->row->places[ring], &look->row->places[RHO_LEARN_RINGS + octant]};
 }
 
