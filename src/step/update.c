@@ -51,16 +51,17 @@ static void update_hypotheses(struct rho_tracker *tracker, const struct rho_look
     uint32_t refused = pool->updates_refused;
     const float log_miss = rho_score_log_miss(look, track);
     const int assigned = rho_assignment_column(assignment, row);
-    struct rho_notch_look miss = look->notch_look; /* of one in the notch, or at rest */
-    const int tells =
-        RHO_DOPPLER_NOTCH && (track->blind_percent > 0 || rho_pd_miss_at_rest(look, track, &miss));
+    struct rho_notch_look at_rest;
     const struct rho_hypotheses_scan scan = {
         .time_us = look->time_us,
         .measures = look->scan->measures,
         .plots = look->scan->plots,
         .sensor = look->sensor,
         .log_miss = log_miss,
-        .look = tells ? &miss : 0,
+        .look = !RHO_DOPPLER_NOTCH                           ? 0
+                : track->blind_percent > 0                   ? &look->notch_look
+                : rho_pd_miss_at_rest(look, track, &at_rest) ? &at_rest
+                                                             : 0,
         .claims = assignment->column_row,
         .own = (int16_t)row,
     };

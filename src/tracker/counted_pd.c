@@ -84,46 +84,42 @@ static struct place place_of(const struct rho_look *look, const struct rho_track
     return (struct place){&look->row->places[ring], &look->row->places[RHO_LEARN_RINGS + octant]};
 }
 
-/*
- * True of one that may stand, having moved, to the sensor that saw it last: radars that leave out
- * what stands see less of it. What a notch explains is left to the notch.
- */
+/* True of one that may stand, having moved, to the sensor that saw it last, but for a notch. */
 static int is_at_rest(const struct rho_look *look, const struct rho_track *track)
 {
     const struct rho_tracker_config *config = &look->tracker->config;
     const float *state = track->kalman.state, *p = track->kalman.covariance;
-    const float variance = 0.5f * (p[RHO_AT(RHO_VX, RHO_VX)] + p[RHO_AT(RHO_VY, RHO_VY)]);
-    return track->has_moved && !(config->v_min_mps > 0.0f) &&
-           track->sensor_id == look->row->sensor.sensor_id &&
+    const float speed2 = rho_square(state[RHO_VX]) + rho_square(state[RHO_VY]);
+    return speed2 < rho_square(REST_SHARE * config->v_max_mps) && track->has_moved &&
+           !(config->v_min_mps > 0.0f) && track->sensor_id == look->scan->sensor_id &&
            track->blind_percent <= BLIND_PERCENT_MAX &&
-           rho_square(state[RHO_VX]) + rho_square(state[RHO_VY]) <
-               rho_smaller(rho_square(REST_SIGMAS) * variance,
-                           rho_square(REST_SHARE * config->v_max_mps));
+           speed2 < 0.5f * rho_square(REST_SIGMAS) *
+                        (p[RHO_AT(RHO_VX, RHO_VX)] + p[RHO_AT(RHO_VY, RHO_VY)]);
 }
 
-/* P_D at the track's place, at most `own`. */
-static float pd_at_place(const struct rho_look *look, const struct rho_track *track, float own)
+/* P_D at a place, at most `own`. */
+static float pd_at(const struct rho_look *look, struct place at, float own)
 {
-    const struct place at = place_of(look, track);
     const float ratio =
         rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
-    const float pd = rho_smaller(ratio * look->pd, own);
+    const float there = ratio * look->pd, pd = own < there ? own : there;
     return pd < look->pd || pd > look->pd ? limit_pd(look->tracker, stated_pd(look), pd) : pd;
 }
 
 /* P_D of a visible target at the track's place; of one at rest its own, if that is less. */
 static float pd_of(const struct rho_look *look, const struct rho_track *track)
 {
-    return pd_at_place(look, track, is_at_rest(look, track) ? 1.0f - track->rest_miss : 1.0f);
+    const float own = is_at_rest(look, track) ? 1.0f - track->rest_miss : 1.0f;
+    return pd_at(look, place_of(look, track), own);
 }
 
 int rho_pd_miss_at_rest(const struct rho_look *look, const struct rho_track *track,
                         struct rho_notch_look *miss)
 {
-    if (!is_pd_learned(look) || !is_at_rest(look, track)) {
+    if (!is_at_rest(look, track) || !is_pd_learned(look)) {
         return 0;
     }
-    const float moving = 1.0f - pd_at_place(look, track, 1.0f);
+    const float moving = 1.0f - pd_at(look, place_of(look, track), 1.0f);
     *miss = (struct rho_notch_look){.pd = 1.0f - moving / rho_larger(track->rest_miss, moving),
                                     .rest_mps = 0.5f * REST_SHARE * look->tracker->config.v_max_mps,
                                     .may_stand = 1};
@@ -165,13 +161,15 @@ void rho_pd_count_place(const struct rho_look *look, struct rho_track *track, fl
                         float ratio)
 {
     if (teaches_place(look, track)) {
-        const float pd = track->seen_share * pd_of(look, track);
-        const float hit = rho_larger(1.0f - (1.0f - pd) / ratio, 0.0f);
-        if (is_at_rest(look, track)) {
+        const struct place at = place_of(look, track);
+        const int rests = is_at_rest(look, track);
+        const float pd = pd_at(look, at, rests ? 1.0f - track->rest_miss : 1.0f);
+        const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd) / ratio, 0.0f);
+        if (rests) {
             track->rest_miss += visible * (1.0f - hit - track->rest_miss) / REST_LOOKS;
         } else {
             rho_pd_count(look->row, visible, hit);
-            count_at_both(look, place_of(look, track), visible, visible * hit);
+            count_at_both(look, at, visible, visible * hit);
             track->unseen += visible;
         }
         track->unseen *= 1.0f - hit;

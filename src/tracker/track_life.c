@@ -114,13 +114,13 @@ void rho_life_begin(struct rho_track *track, int64_t time_us, int32_t confirm_mn
 /* Notes, at a plot, whether the track has surely left the place where it started. */
 static void note_move(const struct rho_look *look, struct rho_track *track)
 {
-    const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
-    const float *state = track->kalman.state;
-    track->has_moved |=
-        look->scan && look->teaches && track->plot >= 0 && track->was_confirmed &&
-        track->hits >= TARGET_TRACK_HITS &&
-        rho_square(state[0] - track->start_m[0]) + rho_square(state[1] - track->start_m[1]) >
-            far_m * far_m;
+    if (!track->has_moved && look->scan && look->teaches && track->plot >= 0 &&
+        track->was_confirmed && track->hits >= TARGET_TRACK_HITS) {
+        const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
+        const float dx_m = track->kalman.state[RHO_X] - track->start_m[0],
+                    dy_m = track->kalman.state[RHO_Y] - track->start_m[1];
+        track->has_moved = dx_m * dx_m + dy_m * dy_m > far_m * far_m;
+    }
 }
 
 struct rho_tracker_life rho_tracker_life(const struct rho_tracker *tracker)
