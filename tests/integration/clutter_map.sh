@@ -160,8 +160,69 @@ refuse 'looks below none' "${head},,,,6,,1,-2,1\n" '2: looks -2 is outside *'
 refuse 'no gap' "${head},,,,6,,0,2,1\n" '2: unseen 0 is outside 1 .. 255'
 refuse 'a second row that is bad' "${head}1,2,3,4,6,,,,\n1,2,3,4,x,,,,\n" "3: hits 'x' *"
 refuse 'an empty file' '' '*'
-run node --lcm 'file://second.lcm?speed=0' --clutter-map bad.csv
-check 'node: a bad file' says 2 'rhotrack: bad.csv:*'
+run node --lcm 'file://second.lcm?speed=0' --clutter-map second.csv
+check 'node: plots' says 2 "rhotrack: second.csv:1: column 't_s' does not belong in a clutter map"
+run node --lcm 'file://second.lcm?speed=0' --clutter-map .
+check 'node: a folder' says 2 \
+    'rhotrack: .: not a regular file; a clutter map cannot be written to it'
+
+# ---- what is damaged: track refuses, node sets it aside ----
+damaged() { # NAME, what is said behind the file's name; damages the file damaged.csv
+    cp damaged.csv kept.csv
+    run track nothing.csv --config scene.ini --clutter-map damaged.csv
+    check "$1: track" says 2 "rhotrack: damaged.csv:$2"
+    check "$1: track leaves it" cmp damaged.csv kept.csv
+    run node --lcm 'file://second.lcm?speed=0' --config scene.ini --clutter-map damaged.csv
+    check "$1: node runs" exits 0
+    check "$1: node says it once" matches "$(grep -a damaged.csv stderr)" \
+        "rhotrack: damaged.csv:$2; set aside as damaged.csv.damaged; the clutter map starts empty"
+    check "$1: its bytes are kept" cmp damaged.csv.damaged kept.csv
+    check "$1: nothing else is left" test "$(echo damaged.csv.*)" = damaged.csv.damaged
+    run track nothing.csv --config scene.ini --clutter-map damaged.csv
+    check "$1: the new one is good" exits 0
+    rm -f damaged.csv.damaged
+}
+sum=' the checksum is wrong: damaged, or changed by hand (remove the lines of # then)'
+sed '5s/,/,1/' map.csv >damaged.csv
+damaged 'a digit too many' "$sum"
+sed '$d' map.csv >damaged.csv
+damaged 'cut short' "$sum"
+head -c 150 map.csv >damaged.csv
+damaged 'cut in its head' '*'
+tr '\0-\377' '\0' <map.csv >damaged.csv
+damaged 'zeros' '*'
+{ head -c 64 /dev/zero; tail -c +65 map.csv; } >damaged.csv
+damaged 'a damaged head' "$sum"
+printf 'sensor_id,x_m,y_m\n1,2\n' >damaged.csv
+damaged 'by hand, and wrong' '2: *'
+: >bad.csv
+run node --lcm 'file://second.lcm?speed=0' --config scene.ini --clutter-map bad.csv
+check 'an empty file: node runs' exits 0
+check 'an empty file: node says it' matches "$(head -n 1 stderr)" \
+    'rhotrack: bad.csv: is empty; the clutter map starts empty'
+run plot clutter-map kept.csv -o map.svg
+check 'a picture of one that is damaged' exits 2
+sed '/^#/d; 5s/,/,1/' map.csv >damaged.csv
+run track nothing.csv --config scene.ini --clutter-map damaged.csv
+check 'without the lines of # it can be changed by hand' exits 0
+sed '2d;$d' map.csv >damaged.csv
+run track nothing.csv --config scene.ini --clutter-map damaged.csv
+check 'as earlier versions wrote it, it is read' matches "$(head -n 1 stderr)" \
+    'rhotrack: damaged.csv: [23][0-9] echoes'
+# a snapshot's map goes before the file, which is checked all the same
+run node --lcm 'file://second.lcm?speed=0' --config scene.ini --snapshot state
+cp second.csv damaged.csv
+run node --lcm 'file://second.lcm?speed=0' --config scene.ini --snapshot state \
+    --clutter-map damaged.csv
+check 'beside a snapshot: plots are refused' exits 2
+check 'beside a snapshot: and are not written over' cmp second.csv damaged.csv
+echo broken >damaged.csv
+run node --lcm 'file://second.lcm?speed=0' --config scene.ini --snapshot state \
+    --clutter-map damaged.csv
+check 'beside a snapshot: a damaged one is set aside' grep -q \
+    '; set aside as damaged.csv.damaged; the snapshot has the clutter map$' stderr
+
+# ---- what cannot be its file ----
 run track second.csv --clutter-map second.csv
 check 'the input' says 2 'rhotrack: second.csv: the input cannot be the clutter map'
 run track second.csv --clutter-map new.csv -o new.csv

@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/signalfd.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "base/common.h"
+#include "base/state_file.h"
 #include "commands.h"
 #include "io/output/clutter_map_file.h"
 #include "io/scans/scan_interval_hint.h"
@@ -26,6 +26,7 @@
 #include "live/node_print_tracks.h"
 #include "live/node_sensor_warnings.h"
 #include "live/prometheus_metrics.h"
+#include "live/state_saver.h"
 #include "live/stderr_time_stamps.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
@@ -39,9 +40,8 @@ enum {
     WARNING_US = 1000000, /* shortest interval between warnings of the same cause */
     RESTARTS_SAID = 8,    /* most sensor restarts reported within WARNING_US */
     MISSING_US = 3000000, /* a missing scan counts as lost after this long */
-    SNAPSHOT_US = 60000000,
-    END_US = 350000,     /* longest wait for outputs (print, log) at the end */
-    END_MOST_US = 500000 /* longest time from the signal to end until the process exits */
+    END_US = 350000,      /* longest wait for outputs (print, log) at the end */
+    END_MOST_US = 500000  /* longest time from the signal to end until the process exits */
 };
 
 struct warning {
@@ -62,15 +62,11 @@ struct node {
     struct node_log *log;      /* NULL: no log is written */
     struct page_server *pages; /* serves the metrics page; NULL: no metrics */
     const struct parameters *parameters;
-    const char *snapshot_path; /* NULL: no snapshot is written */
-    int64_t snapshot_us;       /* monotonic time at which the next snapshot is due */
-    pid_t snapshot_writer;     /* process that writes a snapshot; 0: none is running */
-    pid_t clutter_writer;      /* process that saves the clutter map; 0: none is running */
+    struct state_saver snapshot, clutter_map;
     struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
     struct duplicate_senders senders;
     struct scan_interval_hint plots; /* scan intervals of the first HINT_SCANS scans */
-    struct clutter_map_file clutter;
     /* signal descriptors: `signals` of SIGTERM and SIGINT, `hang_ups` of SIGHUP */
     int signals, hang_ups;
     bool has_terminal;         /* the node was started from a terminal, and ends with it */
@@ -107,112 +103,87 @@ static void log_message(struct node *node, int64_t time_us, const char *channel,
     }
 }
 
+/* Makes the exit code a failure where events could not be written; tracking goes on. */
+static void report_and_retry_log(struct node *node)
+{
+    if (!node_log_report_and_retry(node->log)) {
+        node->exit_code = EXIT_RUNTIME;
+    }
+}
+
 /* ---- Files that are saved ---- */
 
-/* Makes the exit code a failure where a file could not be saved; tracking goes on. */
-static void set_exit_code_unless_saved(struct node *node, bool is_saved)
+static bool save_snapshot(void *context, const char *path)
 {
-    node->exit_code = is_saved ? node->exit_code : EXIT_RUNTIME;
+    return node_core_save_snapshot(context, path);
 }
 
-/*
- * True where the writing process has ended or none was running; *code gets its exit code. waitpid's
- * `options` say whether to wait for it.
- */
-static bool reap_writer_process(pid_t *writer, int options, int *code)
+static bool save_clutter_map(void *context, const char *path)
 {
-    int status = 0;
-
-    if (*writer && waitpid(*writer, &status, options) == 0) {
-        return false;
-    }
-    *writer = 0;
-    *code = WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_RUNTIME;
-    return true;
+    return clutter_map_file_write(path, node_core_clutter_map(context));
 }
 
-/* Warns of a failed snapshot and makes the exit code a failure; tracking goes on. */
-static void warn_of_unwritten_snapshot(struct node *node, const char *why)
+/* Exit 2 where a file that is written would take the place of another one. */
+static void check_state_files(const struct command_line *line)
 {
-    fprintf(stderr, "rhotrack: %s: %s; the snapshot is not written\n", node->snapshot_path, why);
-    node->exit_code = EXIT_RUNTIME;
-}
+    const char *const paths[] = {line->snapshot, line->clutter_map};
+    const char *const what[] = {"snapshot", "clutter map"};
 
-static bool reap_snapshot_writer(struct node *node, int options)
-{
-    int code;
-    const bool is_ended = reap_writer_process(&node->snapshot_writer, options, &code);
-
-    if (is_ended && code) {
-        warn_of_unwritten_snapshot(node, strerror(code));
-    }
-    return is_ended;
-}
-
-/* Writes the snapshot in a forked process, so that messages do not wait for the disk. */
-static void start_snapshot_writer(struct node *node)
-{
-    node->snapshot_writer = fork();
-    if (node->snapshot_writer == 0) {
-        _exit(node_core_save_snapshot(node->core, node->snapshot_path) ? 0 : errno);
-    }
-    if (node->snapshot_writer < 0) {
-        node->snapshot_writer = 0;
-        warn_of_unwritten_snapshot(node, strerror(errno));
-    }
-}
-
-static void write_snapshot_when_due(struct node *node, int64_t now_us)
-{
-    if (node->snapshot_path && now_us >= node->snapshot_us && reap_snapshot_writer(node, WNOHANG)) {
-        node->snapshot_us = now_us + SNAPSHOT_US;
-        start_snapshot_writer(node);
-    }
-}
-
-static void write_snapshot_at_end(struct node *node)
-{
-    if (node->snapshot_path) {
-        (void)reap_snapshot_writer(node, 0);
-        if (!node_core_save_snapshot(node->core, node->snapshot_path)) {
-            warn_of_unwritten_snapshot(node, strerror(errno));
+    state_file_refuse_same(paths[0], what[0], paths[1], what[1]);
+    for (int i = 0; i < 2; i++) {
+        state_file_refuse_same(paths[i], what[i], line->log, "log");
+        if (paths[i] && transport_url_is_same_file(line->lcm, paths[i])) {
+            fail(EXIT_USAGE, "%s: the input cannot be the %s", paths[i], what[i]);
+        }
+        for (size_t k = 0; k + 1 < line->num_settings; k += 2) {
+            if (strcmp(line->settings[k], "--config") == 0) {
+                state_file_refuse_same(paths[i], what[i], line->settings[k + 1], "config");
+            }
         }
     }
 }
 
-static bool reap_clutter_writer(struct node *node, int options)
-{
-    int code;
-    const bool is_ended = reap_writer_process(&node->clutter_writer, options, &code);
-
-    set_exit_code_unless_saved(node, !is_ended || code == 0);
-    return is_ended;
-}
-
 /*
- * Saves the clutter map in a forked process, which prints its own errors, so that messages do not
- * wait for the disk.
+ * Reads the state files and goes on with what they hold. A damaged one is set aside, so that a
+ * service runs on; where even that fails it is not written.
  */
-static void save_clutter_map_when_due(struct node *node)
+static void restore_state(struct node *node, const struct command_line *line)
 {
-    if (clutter_map_file_is_save_due(&node->clutter) && reap_clutter_writer(node, WNOHANG)) {
-        node->clutter.saved_us = monotonic_clock_us();
-        node->clutter_writer = fork();
-        if (node->clutter_writer == 0) {
-            _exit(clutter_map_file_save(&node->clutter, node_core_clutter_map(node->core))
-                      ? 0
-                      : EXIT_RUNTIME);
-        }
-        set_exit_code_unless_saved(node, node->clutter_writer > 0);
-        node->clutter_writer = node->clutter_writer > 0 ? node->clutter_writer : 0;
+    enum pipeline_restored restored = PIPELINE_NO_FILE;
+
+    node->snapshot = (struct state_saver){
+        .path = line->snapshot, .what = "snapshot", .save = save_snapshot, .context = node->core};
+    node->clutter_map = (struct state_saver){.path = line->clutter_map,
+                                             .what = "clutter map",
+                                             .save = save_clutter_map,
+                                             .context = node->core};
+    if (line->snapshot) {
+        restored = node_core_restore_snapshot(node->core, line->snapshot);
     }
+    if (restored == PIPELINE_RESTORED) {
+        fprintf(stderr, "rhotrack: %s: tracks continue from the snapshot\n", line->snapshot);
+    } else if (restored == PIPELINE_STUCK) {
+        node->snapshot.path = NULL;
+        node->exit_code = EXIT_RUNTIME;
+    }
+    if (line->clutter_map && /* the snapshot has the map, too */
+        !clutter_map_file_restore(
+            line->clutter_map, &line->parameters,
+            restored == PIPELINE_RESTORED ? NULL : node_core_clutter_map(node->core))) {
+        node->clutter_map.path = NULL;
+        node->exit_code = EXIT_RUNTIME;
+    }
+    state_saver_start(&node->snapshot, node->status_us);
+    state_saver_start(&node->clutter_map, node->status_us);
 }
 
-static void save_clutter_map_at_end(struct node *node)
+static void save_state_at_end(struct node *node)
 {
-    (void)reap_clutter_writer(node, 0);
-    set_exit_code_unless_saved(
-        node, clutter_map_file_save(&node->clutter, node_core_clutter_map(node->core)));
+    const bool is_snapshot_saved = state_saver_save_at_end(&node->snapshot);
+
+    if (!state_saver_save_at_end(&node->clutter_map) || !is_snapshot_saved) {
+        node->exit_code = EXIT_RUNTIME;
+    }
 }
 
 /* ---- Calls of the core ---- */
@@ -675,13 +646,13 @@ static void report_save_and_end_when_due(struct node *node)
         send_status_and_clutter(node);
         page_server_serve(node->pages); /* drops clients that are too slow */
     }
-    write_snapshot_when_due(node, now_us);
+    state_saver_save_when_due(&node->snapshot, now_us);
+    state_saver_save_when_due(&node->clutter_map, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
     refresh_track_table(node, false);
     warn_of_losses(node);
     print_sensor_changes(node);
-    set_exit_code_unless_saved(node, node_log_report_and_retry(node->log));
-    save_clutter_map_when_due(node);
+    report_and_retry_log(node);
 }
 
 static void run_node_until_over(struct node *node)
@@ -703,10 +674,9 @@ static void finish_and_save_outputs(struct node *node)
 {
     node_print_finish(&node->print, node->finish_us);
     node_log_finish_queue(node->log, node->finish_us);
-    set_exit_code_unless_saved(node, node_log_report_and_retry(node->log));
+    report_and_retry_log(node);
     print_summary(node);
-    write_snapshot_at_end(node);
-    save_clutter_map_at_end(node);
+    save_state_at_end(node);
 }
 
 static struct node_log_limits log_limits_of_parameters(const struct parameters *parameters)
@@ -727,7 +697,6 @@ int command_node(struct command_line *line)
                                             print_sensor_restart, print_clock_change};
     const bool is_live = transport_url_is_live(line->lcm);
     const struct node_log_limits limits = log_limits_of_parameters(&line->parameters);
-    bool is_restored = false; /* from the snapshot, which has the clutter map */
     int exit_code;
 
     if (line->log && transport_url_is_same_file(line->lcm, line->log)) {
@@ -735,10 +704,7 @@ int command_node(struct command_line *line)
     }
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
-    clutter_map_file_check_output(line->clutter_map, line->log, "log");
-    if (line->clutter_map && transport_url_is_same_file(line->lcm, line->clutter_map)) {
-        fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
-    }
+    check_state_files(line);
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
     error_lines_stamp_stderr(&line->parameters, is_live);
@@ -746,15 +712,7 @@ int command_node(struct command_line *line)
     if (line->commands) {
         node_core_allow_commands(node.core);
     }
-    node.snapshot_path = line->snapshot;
-    node.snapshot_us = node.status_us + SNAPSHOT_US;
-    if (line->snapshot &&
-        node_core_restore_snapshot(node.core, line->snapshot) == PIPELINE_RESTORED) {
-        fprintf(stderr, "rhotrack: %s: tracks continue from the snapshot\n", line->snapshot);
-        is_restored = true;
-    }
-    node.clutter = clutter_map_file_open(line->clutter_map, &line->parameters,
-                                         is_restored ? NULL : node_core_clutter_map(node.core));
+    restore_state(&node, line);
     open_signal_descriptors(&node);
     start_end_watchdog(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/common.h"
+#include "base/state_file.h"
 #include "command_line.h"
 #include "commands.h"
 #include "initiation/last_bearings.h"
@@ -597,9 +598,9 @@ int command_track(struct command_line *line)
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
     for (int i = 0; i < line->num_arguments; i++) {
-        clutter_map_file_check_output(line->clutter_map, line->arguments[i], "input");
+        state_file_refuse_same(line->clutter_map, "clutter map", line->arguments[i], "input");
     }
-    clutter_map_file_check_output(line->clutter_map, line->output, "output");
+    state_file_refuse_same(line->clutter_map, "clutter map", line->output, "output");
     if (line->show && !tracks_output_path_is_log(line->output)) {
         fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
     }

@@ -2,116 +2,85 @@
 #include "pipeline/pipeline_snapshot.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/common.h"
+#include "base/state_file.h"
 #include "rhotrack/snapshot.h"
 
 /* size of a write */
 #define PIECE_BYTES 65536
 
+/* A text that is at least so long is no snapshot that a disk has damaged, but another file. */
+#define TEXT_BYTES 64
+
 /* ---- Save ---- */
 
-static bool write_all_bytes(int file, const uint8_t *bytes, size_t size)
+static bool write_snapshot(FILE *file, const void *context)
 {
-    while (size > 0) {
-        ssize_t written = write(file, bytes, size);
-
-        if (written < 0 && errno != EINTR) {
-            return false;
-        }
-        bytes += written > 0 ? written : 0;
-        size -= written > 0 ? (size_t)written : 0;
-    }
-    return true;
-}
-
-static bool write_snapshot_to_disk(int file, const struct rho_snapshot_part *parts,
-                                   unsigned num_parts)
-{
+    struct pipeline *pipeline = *(struct pipeline *const *)context;
+    struct rho_snapshot_part *parts = must_calloc(RHO_NODE_PARTS, sizeof *parts);
+    const unsigned num_parts = rho_node_list_parts(pipeline->node, parts);
     uint8_t piece[PIECE_BYTES];
     size_t at = 0, length = 0;
+    bool is_good;
 
     do {
-        if (rho_snapshot_save(parts, num_parts, at, piece, sizeof piece, &length) != RHO_OK) {
-            errno = EINVAL;
-            return false;
-        }
-        if (!write_all_bytes(file, piece, length)) {
-            return false;
-        }
+        errno = EINVAL; /* where the library refuses the objects */
+        is_good = rho_snapshot_save(parts, num_parts, at, piece, sizeof piece, &length) == RHO_OK &&
+                  fwrite(piece, 1, length, file) == length;
         at += length;
-    } while (length > 0);
-    return fsync(file) == 0;
+    } while (is_good && length > 0);
+    free(parts);
+    return is_good;
 }
 
 bool pipeline_save_snapshot(struct pipeline *pipeline, const char *path)
 {
-    struct rho_snapshot_part *parts = must_calloc(RHO_NODE_PARTS, sizeof *parts);
-    const unsigned num_parts = rho_node_list_parts(pipeline->node, parts);
-    size_t room = strlen(path) + sizeof ".part";
-    char *beside = must_alloc(room);
-    bool is_saved = false;
-    int file, reason;
-
-    snprintf(beside, room, "%s.part", path);
-    file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file >= 0) {
-        is_saved = write_snapshot_to_disk(file, parts, num_parts);
-        reason = errno;
-        is_saved = close(file) == 0 && is_saved && rename(beside, path) == 0;
-        if (!is_saved) {
-            reason = reason ? reason : errno;
-            unlink(beside);
-            errno = reason;
-        }
-    }
-    free(beside);
-    free(parts);
-    return is_saved;
+    return state_file_replace(path, write_snapshot, &pipeline);
 }
 
 /* ---- Restore ---- */
 
-/* Reads a file into new memory; NULL where it is missing. Exit 1 where it cannot be read. */
-static uint8_t *read_file_if_present(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    uint8_t *bytes = NULL;
-    size_t room = 0, got = 1;
-
-    *size = 0;
-    if (!file && errno == ENOENT) {
-        return NULL;
-    }
-    if (!file) {
-        fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
-    }
-    while (got > 0) {
-        if (*size == room) {
-            room = room ? 2 * room : 1 << 20;
-            bytes = must_realloc(bytes, room);
-        }
-        got = fread(bytes + *size, 1, room - *size, file);
-        *size += got;
-    }
-    if (ferror(file)) {
-        fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
-    }
-    fclose(file);
-    return bytes;
-}
-
+/* Says why the snapshot is not used. It is written over by the next one. */
 static enum pipeline_restored refuse_snapshot(const char *path, const char *why)
 {
     fprintf(stderr, "rhotrack: %s: %s; tracks begin anew\n", path, why);
     return PIPELINE_REFUSED;
 }
 
-static const char *snapshot_refusal_reason(enum rho_status status)
+static enum pipeline_restored set_snapshot_aside(const char *path, const char *why)
+{
+    const size_t bytes = strlen(path) + strlen(why) + 3;
+    char *said = must_alloc(bytes);
+    bool is_aside;
+
+    snprintf(said, bytes, "%s: %s", path, why);
+    is_aside = state_file_set_aside(path, said, "tracks begin anew");
+    free(said);
+    return is_aside ? PIPELINE_REFUSED : PIPELINE_STUCK;
+}
+
+static const char *damage_of_snapshot(const uint8_t *image, size_t size)
+{
+    static const char magic[] = "rhosnap\n";
+    uint32_t crc;
+
+    if (size < 8 || memcmp(image, magic, 8) != 0) {
+        return "not a snapshot";
+    }
+    crc = state_file_crc(image, size - 4); /* its least significant byte comes first */
+    for (unsigned i = 0; i < 4; i++) {
+        if (image[size - 4 + i] != (uint8_t)(crc >> 8 * i)) {
+            return "the snapshot is damaged";
+        }
+    }
+    return NULL;
+}
+
+/* Why a snapshot that is whole does not fit this node; NULL where it is damaged all the same. */
+static const char *reason_of_misfit(enum rho_status status)
 {
     switch ((int)status) {
     case RHO_ERROR_TYPE:
@@ -122,7 +91,7 @@ static const char *snapshot_refusal_reason(enum rho_status status)
     case RHO_ERROR_CAPACITY:
         return "a snapshot with other parameters";
     default:
-        return "the snapshot is damaged";
+        return NULL;
     }
 }
 
@@ -157,10 +126,9 @@ static unsigned num_windows_in_storage(const uint8_t *image, size_t size)
     return num_windows > 0 ? num_windows - 1 : 0;
 }
 
-static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipeline,
-                                                           struct parameters *parameters,
-                                                           const char *path, const uint8_t *image,
-                                                           size_t size)
+/* Replaces the pipeline and its parameters by those of the snapshot, if all of it fits. */
+static enum rho_status adopt_snapshot(struct pipeline *pipeline, struct parameters *parameters,
+                                      const uint8_t *image, size_t size)
 {
     struct parameters changed = *parameters;
     struct rho_settings saved;
@@ -171,7 +139,7 @@ static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipe
         status = RHO_ERROR_CONFIG;
     }
     if (status != RHO_OK) {
-        return refuse_snapshot(path, snapshot_refusal_reason(status));
+        return status;
     }
     fresh =
         open_fresh_pipeline(pipeline, parameters, &changed, num_windows_in_storage(image, size));
@@ -179,27 +147,59 @@ static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipe
     status = rho_node_load(fresh.node, image, size);
     if (status != RHO_OK) {
         pipeline_free(&fresh);
-        return refuse_snapshot(path, snapshot_refusal_reason(status));
+        return status;
     }
     pipeline_free(pipeline);
     *pipeline = fresh;
     *parameters = changed;
-    return PIPELINE_RESTORED;
+    return RHO_OK;
+}
+
+static enum pipeline_restored restore_image(struct pipeline *pipeline,
+                                            struct parameters *parameters, const char *path,
+                                            const uint8_t *image, size_t size)
+{
+    const char *why = damage_of_snapshot(image, size);
+    enum rho_status status;
+
+    if (why) {
+        return set_snapshot_aside(path, why);
+    }
+    status = adopt_snapshot(pipeline, parameters, image, size);
+    if (status == RHO_OK) {
+        return PIPELINE_RESTORED;
+    }
+    why = reason_of_misfit(status);
+    return why ? refuse_snapshot(path, why) : set_snapshot_aside(path, "the snapshot is damaged");
+}
+
+static bool is_long_text(const uint8_t *bytes, size_t size)
+{
+    bool is_text = size >= TEXT_BYTES;
+
+    for (size_t i = 0; is_text && i < size; i++) {
+        is_text = bytes[i] >= ' ' ? bytes[i] != 127 : bytes[i] >= '\t' && bytes[i] <= '\r';
+    }
+    return is_text;
 }
 
 enum pipeline_restored pipeline_restore_snapshot(struct pipeline *pipeline,
                                                  struct parameters *parameters, const char *path)
 {
-    static const char magic[] = "rhosnap\n";
     enum pipeline_restored restored = PIPELINE_NO_FILE;
     size_t size;
-    uint8_t *image = read_file_if_present(path, &size);
+    int error;
+    uint8_t *image = state_file_read(path, "snapshot", &size, &error);
 
-    if (size > 0 && (size < 8 || memcmp(image, magic, 8) != 0)) {
+    if (is_long_text(image, size)) {
         fail(EXIT_USAGE, "%s: not a snapshot, and would be overwritten", path);
     }
-    if (size > 0) {
-        restored = replace_pipeline_by_snapshot(pipeline, parameters, path, image, size);
+    if (error) {
+        restored = set_snapshot_aside(path, strerror(error));
+    } else if (image && size == 0) {
+        restored = refuse_snapshot(path, "the snapshot is empty");
+    } else if (image) {
+        restored = restore_image(pipeline, parameters, path, image, size);
     }
     free(image);
     return restored;

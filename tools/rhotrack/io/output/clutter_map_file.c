@@ -2,15 +2,17 @@
 #include "io/output/clutter_map_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/common.h"
+#include "base/state_file.h"
 #include "io/csv/csv_table.h"
 #include "io/csv/geodetic_columns.h"
 #include "io/csv/row_cells.h"
@@ -20,6 +22,18 @@
 #define SIGMA_BY_HAND_M 30.0
 
 #define SAVE_US 60000000
+
+/*
+ * Says in the head of a file that its last line is its checksum: without either of the two the
+ * other one still tells of a damaged file. Files by hand, and of earlier versions, have neither.
+ */
+#define CHECKED_LINE                                                                               \
+    "# Checked by the last line, the CRC-32 of all before it: remove both to change rows by "      \
+    "hand.\n"
+#define CHECKSUM_LINE "# CRC-32 %08" PRIx32 "\n"
+#define CHECKSUM_LINE_BYTES 18
+
+#define REASON_BYTES 1024
 
 #define ALL_REGIONS (RHO_ECHO_TABLES - 1)
 #define REGION_MAX (ALL_REGIONS - 1)
@@ -44,6 +58,9 @@ struct clutter_row {
     struct return_counts counts;
 };
 
+/* The file that is read is one of plots or tracks: an error of the command line, no damage. */
+static bool is_of_others;
+
 /* Checks the columns; returns NULL where x_m and y_m, not lat_deg and lon_deg, give positions. */
 static struct geodetic_columns *check_columns(const struct columns *columns,
                                               const struct parameters *parameters)
@@ -59,6 +76,7 @@ static struct geodetic_columns *check_columns(const struct columns *columns,
 
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         if (columns->at[others[i]] >= 0) {
+            is_of_others = true;
             table_fail_at_row(columns->table, TABLE_HEADER,
                               "column '%s' does not belong in a clutter map",
                               column_name(others[i]));
@@ -187,10 +205,44 @@ static bool read_return_counts(const struct row_check *check, struct return_coun
     return true;
 }
 
+/* Whether the bytes have the checksum that they speak of, or speak of none. */
+static bool is_checksum_right(const uint8_t *bytes, size_t size)
+{
+    const size_t rows = size < CHECKSUM_LINE_BYTES ? 0 : size - CHECKSUM_LINE_BYTES;
+    char expected[CHECKSUM_LINE_BYTES + 1];
+
+    if (rows == 0) {
+        return true; /* too short for its head, which the table's reader finds */
+    }
+    snprintf(expected, sizeof expected, CHECKSUM_LINE, state_file_crc(bytes, rows));
+    return memcmp(bytes + rows, expected, CHECKSUM_LINE_BYTES) == 0 ||
+           (memcmp(bytes + rows, expected, strcspn(CHECKSUM_LINE, "%")) != 0 &&
+            !memmem(bytes, size, CHECKED_LINE, strlen(CHECKED_LINE)));
+}
+
+/* Exit 2 where a file's bytes are not those that were written. */
+static void check_checksum(const char *path)
+{
+    size_t size;
+    int error;
+    uint8_t *bytes = state_file_read(path, "clutter map", &size, &error);
+
+    if (bytes && !is_checksum_right(bytes, size)) {
+        fail(EXIT_USAGE,
+             "%s: the checksum is wrong: damaged, or changed by hand (remove the lines of # then)",
+             path);
+    }
+    free(bytes);
+}
+
 /* Reads and checks all rows before any of them changes the map. */
 static struct clutter_row *read_rows(const char *path, const struct parameters *parameters,
                                      size_t *count)
 {
+    if (regular_file_size_or_zero(path) > 0) { /* a pipe can be read once */
+        check_checksum(path);
+    }
+
     struct table *table = table_read(path, false);
     const struct columns columns = columns_find(table);
     struct geodetic_columns *geodetic = check_columns(&columns, parameters);
@@ -315,14 +367,14 @@ static bool next_return_counts(const struct rho_clutter_map *map, unsigned *at,
     return false;
 }
 
-static bool write_map(FILE *file, const struct rho_clutter_map *map)
+static void write_rows(FILE *file, const struct rho_clutter_map *map)
 {
     struct clutter_echo echo;
     struct return_counts counts;
 
     fputs("# Clutter map. Rows with a sensor are echoes that stand; rows with looks, what was "
           "learned "
-          "of their returns.\n"
+          "of their returns.\n" CHECKED_LINE
           "sensor_id,x_m,y_m,sigma_range_m,sigma_cross_m,hits,region,unseen,looks,returns\n",
           file);
     for (uint32_t place = 0; next_standing_echo(map, &place, &echo);) {
@@ -344,96 +396,136 @@ static bool write_map(FILE *file, const struct rho_clutter_map *map)
                 (unsigned)counts.unseen, shortest_float_text(counts.looks, looks),
                 shortest_float_text(counts.returns, returns));
     }
-    return !ferror(file);
 }
 
-/*
- * Creates a temporary file beside the path, with the old file's permissions or those of a new one.
- * Returns NULL where that fails; errno says why.
- */
-static FILE *open_temporary_beside(const char *path, char **temporary)
+static bool write_map(FILE *file, const void *context)
 {
-    struct stat status;
-    mode_t mask = umask(0);
-    int descriptor;
+    const struct rho_clutter_map *map = context;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&text, &size);
+    bool is_good = memory != NULL;
 
-    umask(mask);
-    *temporary = must_alloc(strlen(path) + 8);
-    sprintf(*temporary, "%s.XXXXXX", path);
-    descriptor = mkstemp(*temporary);
-    if (descriptor < 0) {
-        return NULL;
+    if (memory) {
+        write_rows(memory, map);
+        is_good = !ferror(memory);
+        is_good = fclose(memory) == 0 && is_good;
     }
-    (void)fchmod(descriptor, stat(path, &status) ? 0666 & ~mask : status.st_mode & 07777);
-    return fdopen(descriptor, "w");
-}
-
-/*
- * Replaces the file by one with the map. map NULL: tests only whether it could be written. A
- * symbolic link is kept; to a file without a name, as /dev/fd/3 may be, it is refused.
- */
-static bool replace_or_test_file(const char *path, const struct rho_clutter_map *map)
-{
-    char *real = realpath(path, NULL), *temporary;
-    const char *target = real ? real : path;
-    struct stat status;
-
-    if (!real && stat(path, &status) == 0) {
-        errno = ENOENT;
-        return false;
-    }
-
-    FILE *file = open_temporary_beside(target, &temporary);
-    bool is_good = file != NULL;
-
-    if (file && map) {
-        is_good = write_map(file, map);
-    }
-    is_good = file && !fclose(file) && is_good;
-    if (is_good && map) {
-        is_good = rename(temporary, target) == 0;
-    }
-    if (file && (!is_good || !map)) {
-        const int reason = errno;
-
-        unlink(temporary);
-        errno = reason;
-    }
-    free(temporary);
-    free(real);
+    is_good = is_good && fwrite(text, 1, size, file) == size &&
+              fprintf(file, CHECKSUM_LINE, state_file_crc(text, size)) == CHECKSUM_LINE_BYTES;
+    free(text);
     return is_good;
 }
 
-void clutter_map_file_check_output(const char *path, const char *other, const char *what)
+bool clutter_map_file_write(const char *path, const struct rho_clutter_map *map)
 {
-    if (path && other && (strcmp(path, other) == 0 || is_same_file(path, other))) {
-        fail(EXIT_USAGE, "%s: the %s cannot be the clutter map", path, what);
-    }
+    return state_file_replace(path, write_map, map);
 }
+
+/* ---- Restore ---- */
+
+/* How the process that tries a file ends, beside 0 and the program's exit codes. */
+#define EXIT_OF_OTHERS 3
+
+static int reason_pipe;
+
+static void send_reason_and_exit(int exit_code, const char *message)
+{
+    (void)!write(reason_pipe, message, strlen(message));
+    _exit(is_of_others ? EXIT_OF_OTHERS : exit_code);
+}
+
+/*
+ * Reads the rows in a process of its own, which a bad file ends wherever its fault shows. Returns
+ * whether they are good; else reason has `FILE:LINE: what is wrong`.
+ */
+static bool try_rows(const char *path, const struct parameters *parameters,
+                     char reason[REASON_BYTES])
+{
+    int ends[2], status = 0;
+    size_t count;
+    ssize_t got;
+    pid_t reader;
+
+    if (pipe2(ends, O_CLOEXEC) != 0 || (reader = fork()) < 0) {
+        fail(EXIT_RUNTIME, "%s: cannot be tried: %s", path, strerror(errno));
+    }
+    if (reader == 0) {
+        reason_pipe = ends[1];
+        fail_handler = send_reason_and_exit;
+        free(read_rows(path, parameters, &count));
+        _exit(0);
+    }
+    close(ends[1]);
+    snprintf(reason, REASON_BYTES, "%s: its reader fails", path);
+    got = read(ends[0], reason, REASON_BYTES - 1);
+    reason[got > 0 ? (size_t)got : strlen(reason)] = '\0';
+    close(ends[0]);
+    waitpid(reader, &status, 0);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_OF_OTHERS) {
+        fail(EXIT_USAGE, "%s", reason);
+    }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_RUNTIME) {
+        fail(EXIT_RUNTIME, "%s", reason);
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+static void say_start_of_map(const char *path, const char *why)
+{
+    fprintf(stderr, "rhotrack: %s: %s; the clutter map starts empty\n", path, why);
+}
+
+bool clutter_map_file_restore(const char *path, const struct parameters *parameters,
+                              struct rho_clutter_map *map)
+{
+    const char *then = map ? "the clutter map starts empty" : "the snapshot has the clutter map";
+    char reason[REASON_BYTES];
+    size_t size;
+    int error;
+    uint8_t *bytes = state_file_read(path, "clutter map", &size, &error);
+    const bool is_there = bytes != NULL;
+
+    free(bytes);
+    if (error) {
+        snprintf(reason, sizeof reason, "%s: %s", path, strerror(error));
+        return state_file_set_aside(path, reason, then);
+    }
+    if (size > 0 && !try_rows(path, parameters, reason)) {
+        return state_file_set_aside(path, reason, then);
+    }
+    if (map && size > 0) {
+        load_file_into_map(path, parameters, map);
+    } else if (map) {
+        say_start_of_map(path, is_there ? "is empty" : "does not exist yet");
+    }
+    return true;
+}
+
+/* ---- The file of a batch ---- */
 
 struct clutter_map_file clutter_map_file_open(const char *path, const struct parameters *parameters,
                                               struct rho_clutter_map *map)
 {
     struct clutter_map_file file = {.path = path, .saved_us = monotonic_clock_us()};
-    struct stat status;
+    size_t size;
+    int error;
+    uint8_t *bytes;
 
     if (!path) {
         return file;
     }
-    if (stat(path, &status)) {
-        if (errno != ENOENT) {
-            fail(EXIT_USAGE, "%s: %s", path, strerror(errno));
-        }
-        if (map) {
-            fprintf(stderr, "rhotrack: %s: does not exist yet; the clutter map starts empty\n",
-                    path);
-        }
-    } else if (!S_ISREG(status.st_mode)) {
-        fail(EXIT_USAGE, "%s: not a regular file; a clutter map cannot be written to it", path);
-    } else if (map) {
-        load_file_into_map(path, parameters, map);
+    bytes = state_file_read(path, "clutter map", &size, &error);
+    if (error) {
+        fail(EXIT_USAGE, "%s: %s", path, strerror(error));
     }
-    if (!replace_or_test_file(path, NULL)) {
+    if (bytes) {
+        load_file_into_map(path, parameters, map);
+    } else {
+        say_start_of_map(path, "does not exist yet");
+    }
+    free(bytes);
+    if (!state_file_is_writable(path)) {
         fail(EXIT_RUNTIME, "%s: cannot be written: %s", path, strerror(errno));
     }
     return file;
@@ -445,19 +537,15 @@ bool clutter_map_file_save(struct clutter_map_file *file, const struct rho_clutt
         return true;
     }
     file->saved_us = monotonic_clock_us();
-    if (!replace_or_test_file(file->path, map)) {
+    if (!clutter_map_file_write(file->path, map)) {
         fprintf(stderr, "rhotrack: %s: cannot be written: %s\n", file->path, strerror(errno));
         return false;
     }
     return true;
 }
 
-bool clutter_map_file_is_save_due(const struct clutter_map_file *file)
-{
-    return file->path && monotonic_clock_us() >= file->saved_us + SAVE_US;
-}
-
 bool clutter_map_file_save_if_due(struct clutter_map_file *file, const struct rho_clutter_map *map)
 {
-    return !clutter_map_file_is_save_due(file) || clutter_map_file_save(file, map);
+    return !file->path || monotonic_clock_us() < file->saved_us + SAVE_US ||
+           clutter_map_file_save(file, map);
 }
