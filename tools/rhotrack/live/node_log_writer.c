@@ -272,6 +272,15 @@ static void wait_for_change_until(struct node_log *log, int64_t until_us)
     pthread_cond_timedwait(&log->changed, &log->mutex, &until);
 }
 
+/*
+ * Whether the error is the disk's, which may pass, and not one of the command line, which a user
+ * is there to read.
+ */
+static bool is_fault_of_disk(int error)
+{
+    return error == ENOSPC || error == EDQUOT || error == EROFS || error == EIO;
+}
+
 struct node_log *node_log_open(const char *path, bool is_live, const struct node_log_limits *limits)
 {
     const int64_t until_us = monotonic_clock_us() + OPEN_US;
@@ -299,10 +308,10 @@ struct node_log *node_log_open(const char *path, bool is_live, const struct node
     while (!log->is_open && !log->error && monotonic_clock_us() < until_us) {
         wait_for_change_until(log, until_us);
     }
-    if (log->error) {
+    if (log->error && !(is_live && is_fault_of_disk(log->error))) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(log->error));
     }
-    if (!log->is_open) {
+    if (!log->is_open && !log->error) {
         fprintf(stderr,
                 "rhotrack: %s: cannot be opened yet; tracking goes on, and the log begins once it "
                 "can\n",

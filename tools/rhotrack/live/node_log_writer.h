@@ -23,8 +23,9 @@ struct node_log;
 
 /*
  * Opens the log; an existing file is overwritten, or renamed first where the log has limits. Exit 1
- * where the file cannot be opened. A file that takes long to open (a FIFO without a reader) is
- * opened in the background.
+ * where the file cannot be opened, but not where that is as a disk is full, read-only or broken and
+ * the input is live. A file that takes long to open (a FIFO without a reader) is opened in the
+ * background.
  *   path     NULL: no log
  *   is_live  full queues drop events; else node_log_put_event waits for room
  */
