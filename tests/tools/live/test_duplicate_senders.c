@@ -25,12 +25,27 @@ static void clear_senders(void)
     to = open_memstream(&text, &size);
 }
 
-static void note_message(const char *channel, uint16_t port, bool is_own, int64_t now_us)
+static void note_message_of(uint32_t address, uint16_t port, bool is_own, const char *channel,
+                            int64_t now_us)
 {
     const struct transport_message message = {.channel = channel,
-                                              .sender = {0x0a090001u, port, is_own}};
+                                              .sender = {address, port, is_own}};
 
     duplicate_senders_note_message(&senders, &message, now_us, to);
+}
+
+static void note_message(const char *channel, uint16_t port, bool is_own, int64_t now_us)
+{
+    note_message_of(0x0a090001u, port, is_own, channel, now_us);
+}
+
+/* A message on one of many channels that no radar of these tests has. */
+static void note_message_of_many(uint32_t address, uint16_t port, unsigned channel, int64_t now_us)
+{
+    char name[32];
+
+    snprintf(name, sizeof name, "RHO_PLOTS_%u", 1000 + channel);
+    note_message_of(address, port, false, name, now_us);
 }
 
 static void expect_lines(const char *expected)
@@ -139,6 +154,75 @@ static void the_number_of_warnings_is_limited(void **state)
     assert_int_equal(lines, SENDERS_LINES + 1);
 }
 
+/*
+ * A stranger sends on 200 channels, 100 messages a second, before the radar and beside it: on its
+ * channels it is the only sender, so the only lines are those of the radar.
+ */
+static void expect_two_senders_beside_stranger(uint32_t address)
+{
+    const int64_t hundredth_us = 10000;
+
+    clear_senders();
+    for (int64_t i = 1; i < 4000; i++) {
+        note_message_of_many(address, 6001, (unsigned)(i % 200), i * hundredth_us);
+        if (i >= 1000 && i % 1000 == 0) { /* 10 s a turn */
+            note_message("RHO_POLAR_3", 5001, false, i * hundredth_us);
+        }
+        if (i >= 2000 && i % 1000 == 400) {
+            note_message("RHO_POLAR_3", 5002, false, i * hundredth_us);
+        }
+    }
+    expect_lines(
+        "rhotrack: sensor 3 has another sender, 10.9.0.1:5002, until now 10.9.0.1:5001: a restart, "
+        "or two at once\n"
+        "rhotrack: sensor 3 has two senders: 10.9.0.1:5001 and 10.9.0.1:5002; each needs a number "
+        "of its own\n");
+}
+
+static void two_senders_are_warned_of_beside_200_channels_of_a_stranger(void **state)
+{
+    (void)state;
+    expect_two_senders_beside_stranger(0x0a090002u);
+    expect_two_senders_beside_stranger(0x0a090001u); /* on the radar's host, with its own port */
+}
+
+static void channels_unheard_for_a_minute_are_forgotten(void **state)
+{
+    const int64_t second_us = 1000000;
+
+    (void)state;
+    clear_senders();
+    for (unsigned i = 0; i < 200; i++) { /* each of an address of its own, and heard once */
+        note_message_of_many(0x0a090100u + i, 6001, i, (1 + (int64_t)i) * second_us);
+    }
+    note_message("RHO_POLAR_3", 5001, false, 201 * second_us);
+    note_message("RHO_POLAR_3", 5002, false, 202 * second_us);
+    expect_lines("rhotrack: sensor 3 has another sender, 10.9.0.1:5002, until now 10.9.0.1:5001: a "
+                 "restart, or two at once\n");
+}
+
+/* 64 radars of addresses of their own, and then 136 more channels in their pauses. */
+static void channels_that_are_heard_keep_their_places(void **state)
+{
+    const int64_t second_us = 1000000;
+
+    (void)state;
+    clear_senders();
+    for (int64_t turn = 0; turn < 20; turn++) {
+        for (unsigned i = 0; i < 200; i++) {
+            note_message_of_many(0x0a090100u + i, 6001, i, (1 + 10 * turn) * second_us + i);
+        }
+    }
+    for (unsigned i = 0; i < 64; i += 63) {
+        note_message_of_many(0x0a090001u, 5001, i, 192 * second_us);
+    }
+    expect_lines(
+        "rhotrack: sensor 1000 has another sender, 10.9.0.1:5001, until now 10.9.1.0:6001: a "
+        "restart, or two at once\n"
+        "rhotrack: sensor 1063 has another sender, 10.9.0.1:5001, until now 10.9.1.63:6001: a "
+        "restart, or two at once\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -148,6 +232,9 @@ int main(void)
         cmocka_unit_test(a_second_sender_is_warned_of_at_once_as_a_possible_restart),
         cmocka_unit_test(another_node_is_warned_of_once),
         cmocka_unit_test(the_number_of_warnings_is_limited),
+        cmocka_unit_test(two_senders_are_warned_of_beside_200_channels_of_a_stranger),
+        cmocka_unit_test(channels_unheard_for_a_minute_are_forgotten),
+        cmocka_unit_test(channels_that_are_heard_keep_their_places),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

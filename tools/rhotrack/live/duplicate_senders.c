@@ -8,8 +8,9 @@
 #include "rhotrack/message.h"
 
 #define SECOND_US 1000000
-#define TOLD_US (60 * SECOND_US) /* interval of warnings that a sensor may have another sender */
-#define TURN_US (12 * SECOND_US) /* revolution of a slow radar's antenna */
+#define TOLD_US (60 * SECOND_US)   /* interval of warnings that a sensor may have another sender */
+#define TURN_US (12 * SECOND_US)   /* revolution of a slow radar's antenna */
+#define FORGET_US (60 * SECOND_US) /* a channel unheard for so long may lose its place */
 
 static bool is_same_sender(const struct transport_sender *one, const struct transport_sender *other)
 {
@@ -56,22 +57,91 @@ bool duplicate_senders_sensor_id(const char *channel, int16_t *sensor_id)
     return false;
 }
 
+/* Number of the list's channels of a sender, or of all senders of its address. */
+static unsigned channels_held(const struct duplicate_senders *senders,
+                              const struct transport_sender *sender, bool is_by_address)
+{
+    unsigned held = 0;
+
+    for (unsigned i = 0; i < SENDERS_CHANNELS; i++) {
+        const struct transport_sender *other = &senders->channels[i].last;
+
+        held += is_by_address ? other->address == sender->address : is_same_sender(other, sender);
+    }
+    return held;
+}
+
+/*
+ * The last channel of the sender with the most channels; of the address first, as a stranger has
+ * more ports than addresses.
+ */
+static struct sender_channel *last_channel_of_most(struct duplicate_senders *senders)
+{
+    struct sender_channel *last = &senders->channels[0];
+    unsigned most = 0;
+
+    for (unsigned i = 0; i < SENDERS_CHANNELS; i++) {
+        struct sender_channel *channel = &senders->channels[i];
+        const unsigned held =
+            channels_held(senders, &channel->last, true) * (SENDERS_CHANNELS + 1) +
+            channels_held(senders, &channel->last, false);
+
+        if (held > most || (held == most && channel->since_us > last->since_us)) {
+            most = held;
+            last = channel;
+        }
+    }
+    return last;
+}
+
+/* The place that a new channel of the sender may take in a full list; NULL: none. */
+static struct sender_channel *find_place_to_take(struct duplicate_senders *senders,
+                                                 const struct transport_sender *sender,
+                                                 int64_t now_us)
+{
+    struct sender_channel *place = &senders->channels[0];
+    bool is_by_address;
+
+    for (unsigned i = 1; i < SENDERS_CHANNELS; i++) {
+        if (senders->channels[i].heard_us < place->heard_us) {
+            place = &senders->channels[i];
+        }
+    }
+    if (now_us >= place->heard_us + FORGET_US) {
+        return place;
+    }
+    if (2 * channels_held(senders, sender, false) >= SENDERS_CHANNELS) {
+        return NULL; /* none can have more; says so in less time where a stranger has many names */
+    }
+    place = last_channel_of_most(senders);
+    is_by_address = place->last.address != sender->address;
+    return channels_held(senders, &place->last, is_by_address) >
+                   channels_held(senders, sender, is_by_address) + 1
+               ? place
+               : NULL;
+}
+
 /* Finds or adds the entry of the message's channel; NULL where there is no room. */
 static struct sender_channel *find_or_add_channel(struct duplicate_senders *senders,
-                                                  const struct transport_message *message)
+                                                  const struct transport_message *message,
+                                                  int64_t now_us)
 {
+    struct sender_channel *channel;
+
     for (unsigned i = 0; i < senders->num_channels; i++) {
         if (strcmp(senders->channels[i].name, message->channel) == 0) {
             return &senders->channels[i];
         }
     }
     if (senders->num_channels == SENDERS_CHANNELS) {
-        return NULL;
+        channel = find_place_to_take(senders, &message->sender, now_us);
+    } else {
+        channel = &senders->channels[senders->num_channels++];
     }
-    struct sender_channel *channel = &senders->channels[senders->num_channels++];
-
-    snprintf(channel->name, sizeof channel->name, "%s", message->channel);
-    channel->last = message->sender;
+    if (channel) {
+        *channel = (struct sender_channel){.last = message->sender, .since_us = now_us};
+        snprintf(channel->name, sizeof channel->name, "%s", message->channel);
+    }
     return channel;
 }
 
@@ -111,7 +181,7 @@ static void note_sender_change(struct duplicate_senders *senders, struct sender_
 static void note_sensor_message(struct duplicate_senders *senders,
                                 const struct transport_message *message, int64_t now_us, FILE *to)
 {
-    struct sender_channel *channel = find_or_add_channel(senders, message);
+    struct sender_channel *channel = find_or_add_channel(senders, message, now_us);
 
     if (!channel) {
         return;

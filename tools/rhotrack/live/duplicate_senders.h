@@ -21,14 +21,17 @@ struct sender_channel {
     char name[64];
     struct transport_sender last, before; /* the channel's last sender, and the one before */
     bool is_named;                        /* a warning of this pair of senders was printed */
+    int64_t since_us;                     /* monotonic time of the first message */
     int64_t heard_us;                     /* monotonic time of the last message; 0: none yet */
     /* monotonic time of the warning of a possible second sender; 0: never */
     int64_t told_us;
 };
 
 /*
- * Senders of channels and nodes; all zero at the start. Channels beyond SENDERS_CHANNELS are
- * ignored.
+ * Senders of channels and nodes; all zero at the start. Beyond SENDERS_CHANNELS a new channel takes
+ * the place of the channel heard longest ago, if that is a minute; else that of the last channel of
+ * the sender with the most, if that has more than the new one's sender; else it is ignored. So
+ * sensors that are heard keep their places, and a stranger takes no more than are left.
  */
 struct duplicate_senders {
     unsigned num_channels, num_nodes;
