@@ -26,11 +26,20 @@ add_host() {
         ip link set bridge up
     }
     ip netns add "$1"
+    ip -n "$1" link set lo up
+    connect_host "$@"
+}
+
+# The host's interface eth0, new, with its address and a route for multicast.
+connect_host() { # name, number
     ip link add "to-$1" type veth peer name eth0 netns "$1"
     ip link set "to-$1" master bridge up
-    ip -n "$1" link set lo up
-    ip -n "$1" addr add "10.9.0.$2/24" dev eth0
     ip -n "$1" link set eth0 up
+    address_host "$@"
+}
+
+address_host() { # name, number
+    ip -n "$1" addr add "10.9.0.$2/24" dev eth0
     ip -n "$1" route add 224.0.0.0/4 dev eth0
 }
 

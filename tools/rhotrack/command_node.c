@@ -648,6 +648,7 @@ static void report_save_and_end_when_due(struct node *node)
     }
     state_saver_save_when_due(&node->snapshot, now_us);
     state_saver_save_when_due(&node->clutter_map, now_us);
+    transport_tell_place(node->transport, node->print.is_terminal ? NULL : stderr);
     node->is_over = node->is_over || now_us >= node->end_us;
     refresh_track_table(node, false);
     warn_of_losses(node);

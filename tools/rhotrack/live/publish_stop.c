@@ -61,5 +61,6 @@ bool publish_send_message(struct transport *transport, const char *channel, cons
         }
         nanosleep(&moment, NULL);
     }
+    transport_tell_place(transport, stderr);
     return true;
 }

@@ -60,6 +60,19 @@ const char *transport_url(const struct transport *transport)
     return transport->url;
 }
 
+const char *transport_place(const struct transport *transport)
+{
+    return transport->place;
+}
+
+void transport_tell_place(struct transport *transport, FILE *to)
+{
+    if (transport->is_place_new && to) {
+        fprintf(to, "rhotrack: %s\n", transport->place);
+    }
+    transport->is_place_new = false;
+}
+
 bool transport_can_send(const struct transport *transport)
 {
     return transport->can_send;

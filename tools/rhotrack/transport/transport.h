@@ -14,6 +14,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #define TRANSPORT_DEFAULT_URL "udpm://239.255.76.67:7667?ttl=0"
 
@@ -72,6 +73,15 @@ bool transport_url_is_same_file(const char *url, const char *path);
 bool transport_url_is_live(const char *url);
 
 const char *transport_url(const struct transport *transport);
+
+/*
+ * Where messages come from at present, or go to where none are received: group, port, interface and
+ * its address, or the reason why nothing can come; "" for transports of liblcm and files.
+ */
+const char *transport_place(const struct transport *transport);
+
+/* Prints the place where it has changed since the last call; `to` NULL: prints nothing. */
+void transport_tell_place(struct transport *transport, FILE *to);
 
 /* True where messages can be sent; false where a file is read. */
 bool transport_can_send(const struct transport *transport);

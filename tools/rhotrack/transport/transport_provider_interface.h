@@ -8,6 +8,8 @@
 
 #include "transport/transport.h"
 
+enum { TRANSPORT_PLACE_BYTES = 256 };
+
 struct transport_provider {
     int (*descriptor)(const void *object);
     enum transport_found (*receive)(struct transport *transport, void *object,
@@ -28,6 +30,9 @@ struct transport {
     int64_t last_us, ahead_us;
     bool has_own_clock; /* the reception clock is last_us, the time of the last message */
     struct transport_counters counters;
+    /* where messages come from, as transport_tell_place prints it; "": the URL says all */
+    char place[TRANSPORT_PLACE_BYTES];
+    bool is_place_new; /* not printed yet */
 };
 
 /* Exit 2 with `rhotrack: --lcm URL: reason`. */

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/epoll.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
 #include <time.h>
@@ -14,7 +15,14 @@
 
 #include "base/common.h"
 #include "rhotrack/udpm.h"
+#include "transport/network_watch.h"
 #include "transport/transport_provider_interface.h"
+
+/*
+ * Interval of looks at the network where the group could not be joined, or the system tells of no
+ * changes.
+ */
+#define RETRY_US 500000
 
 /*
  * BATCH: datagrams read by one system call. DATAGRAM_BYTES: room for one; no message of rhotrack is
@@ -36,12 +44,19 @@ union control {
 };
 
 struct udpm {
+    struct transport *transport;
     struct sockaddr_in group;
-    int ttl, wanted_bytes; /* wanted_bytes: receive buffer that the URL asks for; 0: none */
-    /* index of the loopback interface where no route leads to the group; else 0 */
-    unsigned interface;
-    int receiver, sender; /* socket descriptors; -1: none */
-    in_port_t own_port;   /* port of the sender's socket, network byte order; 0: not known yet */
+    int ttl, wanted_bytes;      /* wanted_bytes: receive buffer that the URL asks for; 0: none */
+    struct network_route route; /* to the group; by the loopback where there is none */
+    bool has_route;
+    /*
+     * socket descriptors; -1: none. ready: readable where receiver or watch is. member: holds the
+     * membership of the group
+     */
+    int receiver, sender, watch, ready, member;
+    int join_error;     /* of the last attempt to join the group; 0: it has succeeded */
+    int64_t looked_us;  /* monotonic time of the last look at the network */
+    in_port_t own_port; /* port of the sender's socket, network byte order; 0: not known yet */
     uint32_t sequence;
     struct rho_udpm_guard guard;
     int num_here, next; /* datagrams of the batch, and the next one to deliver */
@@ -166,27 +181,6 @@ static int open_bare_udp_socket(const struct transport *transport)
     return descriptor;
 }
 
-/*
- * Selects the loopback interface where no route leads to the group: programs on a machine without a
- * network can still reach each other.
- */
-static void use_loopback_without_route(const struct transport *transport, struct udpm *udpm)
-{
-    int descriptor = open_bare_udp_socket(transport);
-
-    if (connect(descriptor, (const struct sockaddr *)&udpm->group, sizeof udpm->group)) {
-        udpm->interface = if_nametoindex("lo");
-        if ((errno != ENETUNREACH && errno != EHOSTUNREACH) || !udpm->interface) {
-            fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
-        }
-        fprintf(stderr,
-                "rhotrack: %s: no route to this group; the loopback is used, which reaches only "
-                "programs of this machine\n",
-                transport->url);
-    }
-    close(descriptor);
-}
-
 static void set_receive_buffer(const struct transport *transport, const struct udpm *udpm)
 {
     int wanted = udpm->wanted_bytes ? udpm->wanted_bytes : WANTED_BYTES, granted = 0;
@@ -212,9 +206,6 @@ static void set_receive_buffer(const struct transport *transport, const struct u
  */
 static void open_receiver(const struct transport *transport, struct udpm *udpm)
 {
-    struct ip_mreqn member = {.imr_multiaddr = udpm->group.sin_addr,
-                              .imr_ifindex = (int)udpm->interface};
-
     udpm->receiver = open_bare_udp_socket(transport);
     must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEADDR, 1);
     must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEPORT, 1);
@@ -224,8 +215,6 @@ static void open_receiver(const struct transport *transport, struct udpm *udpm)
     if (bind(udpm->receiver, (const struct sockaddr *)&udpm->group, sizeof udpm->group)) {
         fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
     }
-    must_set_option(transport, udpm->receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member,
-                    sizeof member);
     for (int i = 0; i < BATCH; i++) {
         udpm->parts[i] = (struct iovec){udpm->bytes[i], DATAGRAM_BYTES};
     }
@@ -233,21 +222,105 @@ static void open_receiver(const struct transport *transport, struct udpm *udpm)
 
 static void open_sender(const struct transport *transport, struct udpm *udpm)
 {
-    struct ip_mreqn out = {.imr_ifindex = (int)udpm->interface};
     struct timeval wait = {.tv_usec = 100000};
 
     udpm->sender = open_bare_udp_socket(transport);
     must_set_int_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
     must_set_int_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_TTL, udpm->ttl);
     must_set_option(transport, udpm->sender, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
-    if (udpm->interface) {
-        must_set_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
+}
+
+/* ---- The network, which may change ---- */
+
+static void write_place(const struct udpm *udpm)
+{
+    struct transport *transport = udpm->transport;
+    const struct network_route *route = &udpm->route;
+    char group[INET_ADDRSTRLEN], address[INET_ADDRSTRLEN], place[TRANSPORT_PLACE_BYTES];
+    const char *does = udpm->receiver < 0 ? "sends to"
+                       : udpm->join_error ? "cannot listen to"
+                                          : "listens to";
+
+    inet_ntop(AF_INET, &udpm->group.sin_addr, group, sizeof group);
+    inet_ntop(AF_INET, &route->address, address, sizeof address);
+    snprintf(place, sizeof place, "%s %s:%u on %s (%s)%s%s%s", does, group,
+             (unsigned)ntohs(udpm->group.sin_port), *route->name ? route->name : "an interface",
+             route->address.s_addr ? address : "no address",
+             udpm->has_route ? "" : ", the programs of this machine alone: no route to the group",
+             udpm->join_error ? ": " : "", udpm->join_error ? strerror(udpm->join_error) : "");
+    if (strcmp(place, transport->place) != 0) {
+        memcpy(transport->place, place, sizeof place);
+        transport->is_place_new = true;
     }
 }
 
-static int receiver_descriptor(const void *object)
+/*
+ * Joins the group with a socket of its own, before the one is closed that has joined it until now:
+ * where the membership still holds, it is never left, and the network hears nothing of it.
+ */
+static void join_group(struct udpm *udpm)
 {
-    return ((const struct udpm *)object)->receiver;
+    const struct ip_mreqn member = {.imr_multiaddr = udpm->group.sin_addr,
+                                    .imr_ifindex = (int)udpm->route.interface};
+    const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+
+    udpm->join_error =
+        setsockopt(descriptor, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member) ? errno : 0;
+    if (udpm->member >= 0) {
+        close(udpm->member);
+    }
+    udpm->member = descriptor;
+}
+
+/*
+ * Looks for the route to the group. Without one the loopback is used: programs on a machine without
+ * a network can still reach each other.
+ */
+static void follow_route(struct udpm *udpm)
+{
+    struct ip_mreqn out = {.imr_ifindex = 0}; /* as routes say */
+
+    udpm->has_route = network_route_find(udpm->group.sin_addr, &udpm->route) == 0;
+    if (!udpm->has_route) {
+        udpm->route = (struct network_route){
+            .interface = if_nametoindex("lo"), .name = "lo", .address = {htonl(INADDR_LOOPBACK)}};
+        out.imr_ifindex = (int)udpm->route.interface;
+    }
+    (void)setsockopt(udpm->sender, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
+}
+
+/* True where a look at the network is due though the kernel tells of no change. */
+static bool is_look_due(const struct udpm *udpm)
+{
+    return (udpm->join_error || udpm->watch < 0) &&
+           monotonic_clock_us() >= udpm->looked_us + RETRY_US;
+}
+
+/* Follows changes of the network since the last call, and tries again to join the group. */
+static void follow_network(struct udpm *udpm)
+{
+    const unsigned before = udpm->route.interface;
+    enum network_change change = is_look_due(udpm) ? NETWORK_INTERFACE : NETWORK_SAME;
+
+    if (udpm->watch >= 0) {
+        const enum network_change told = network_watch_read(udpm->watch, before);
+
+        change = told > change ? told : change;
+    }
+    if (change == NETWORK_SAME) {
+        return;
+    }
+    udpm->looked_us = monotonic_clock_us();
+    follow_route(udpm);
+    if (udpm->receiver >= 0 && (change == NETWORK_INTERFACE || udpm->route.interface != before)) {
+        join_group(udpm);
+    }
+    write_place(udpm);
+}
+
+static int ready_descriptor(const void *object)
+{
+    return ((const struct udpm *)object)->ready;
 }
 
 static void receive_batch_of_datagrams(struct udpm *udpm)
@@ -350,6 +423,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
     struct udpm *udpm = object;
 
     if (udpm->next == udpm->num_here) {
+        follow_network(udpm);
         receive_batch_of_datagrams(udpm);
     }
     while (udpm->next < udpm->num_here) {
@@ -385,6 +459,9 @@ static bool send_message(void *object, const char *channel, const uint8_t *data,
         errno = EMSGSIZE;
         return false;
     }
+    if (udpm->receiver < 0) {
+        follow_network(udpm);
+    }
     parts[0].iov_len = head_bytes;
     parts[1].iov_len = size;
     if (sendmsg(udpm->sender, &header, MSG_NOSIGNAL) < 0) {
@@ -397,29 +474,56 @@ static bool send_message(void *object, const char *channel, const uint8_t *data,
 static void close_sockets(void *object)
 {
     struct udpm *udpm = object;
+    const int descriptors[] = {udpm->receiver, udpm->sender, udpm->watch, udpm->ready,
+                               udpm->member};
 
-    if (udpm->receiver >= 0) {
-        close(udpm->receiver);
+    for (size_t i = 0; i < sizeof descriptors / sizeof *descriptors; i++) {
+        if (descriptors[i] >= 0) {
+            close(descriptors[i]);
+        }
     }
-    close(udpm->sender);
     free(udpm);
+}
+
+/* Makes one descriptor readable where a datagram or a change of the network has come. */
+static void open_ready_descriptor(const struct transport *transport, struct udpm *udpm)
+{
+    struct epoll_event event = {.events = EPOLLIN};
+
+    udpm->ready = epoll_create1(EPOLL_CLOEXEC);
+    if (udpm->ready < 0 || epoll_ctl(udpm->ready, EPOLL_CTL_ADD, udpm->receiver, &event) ||
+        (udpm->watch >= 0 && epoll_ctl(udpm->ready, EPOLL_CTL_ADD, udpm->watch, &event))) {
+        fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
+    }
 }
 
 void transport_open_udpm(struct transport *transport, enum transport_use use)
 {
-    static const struct transport_provider provider = {receiver_descriptor, receive_message,
+    static const struct transport_provider provider = {ready_descriptor, receive_message,
                                                        send_message, close_sockets};
     struct udpm *udpm = must_calloc(1, sizeof *udpm);
 
-    udpm->receiver = -1;
+    udpm->transport = transport;
+    udpm->receiver = udpm->ready = udpm->member = -1;
     udpm->group = (struct sockaddr_in){.sin_family = AF_INET, .sin_port = htons(RHO_UDPM_PORT)};
     inet_pton(AF_INET, RHO_UDPM_GROUP, &udpm->group.sin_addr);
     parse_udpm_url(transport, udpm);
-    use_loopback_without_route(transport, udpm);
+    udpm->watch = network_watch_open(); /* before the first look, so that no change is missed */
+    open_sender(transport, udpm);
+    follow_route(udpm);
+    if (!udpm->has_route) {
+        fprintf(stderr,
+                "rhotrack: %s: no route to this group; the loopback is used, which reaches only "
+                "programs of this machine\n",
+                transport->url);
+    }
     if (use == TRANSPORT_SEND_AND_RECEIVE) {
         open_receiver(transport, udpm);
+        join_group(udpm);
+        open_ready_descriptor(transport, udpm);
     }
-    open_sender(transport, udpm);
+    write_place(udpm);
+    transport->is_place_new = udpm->receiver >= 0; /* of senders only changes are of interest */
     transport->provider = &provider;
     transport->object = udpm;
     transport->can_send = true;
