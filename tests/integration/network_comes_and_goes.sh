@@ -108,6 +108,10 @@ says_place() { # place, number of lines
 test_lines() { [ "$(grep -c "$2" "$3")" -eq "$1" ]; }
 alone='lo (127.0.0.1), the programs of this machine alone: no route to the group'
 
+# ---- silence: no message on this port in the first 12 s ----
+ip netns exec tracker "$program" node --lcm "${lcm_url/7667/7668}" 2>silent.err </dev/null &
+silent=$!
+
 # ---- an interface that goes ----
 begin usual
 check 'it says on which interface it listens' says_place 'eth0 (10.9.0.2)' 1
@@ -212,4 +216,16 @@ check 'and says so' test_lines 1 \
 kill -INT "$publish"
 wait "$publish"
 
+# ---- the silent one ----
+while [ "$SECONDS" -lt 11 ]; do sleep 0.1; done # of this script, which began before the node
+sleep 2
+check 'nothing is heard 12 s long: it says so, and where it listens, once' test_lines 1 \
+    'Z rhotrack: no message was heard in the 12 s since the start; listens to .*:7668 on eth0' \
+    silent.err
+ip netns exec tracker "$program" publish plots.csv --lcm "${lcm_url/7667/7668}" --speed 0 \
+    2>publish.err
+check 'and when that ends' within_2_s test_lines 1 \
+    'Z rhotrack: the first message is heard, [0-9]* s after the start$' silent.err
+kill -INT "$silent"
+wait "$silent"
 finish

@@ -44,6 +44,9 @@ enum {
     END_MOST_US = 500000  /* longest time from the signal to end until the process exits */
 };
 
+/* No message for so long after the start is told: longer than most radars' turns. */
+enum { NOTHING_US = 12000000 };
+
 struct warning {
     uint64_t said;
     int64_t said_us;
@@ -66,6 +69,8 @@ struct node {
     struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
     struct duplicate_senders senders;
+    int64_t start_us;                /* monotonic time of the start */
+    bool is_silence_told;            /* a line says that no message was heard since the start */
     struct scan_interval_hint plots; /* scan intervals of the first HINT_SCANS scans */
     /* signal descriptors: `signals` of SIGTERM and SIGINT, `hang_ups` of SIGHUP */
     int signals, hang_ups;
@@ -336,6 +341,26 @@ static void warn_of_losses(struct node *node)
     node_loss_counts_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         warn_when_tally_rose(&node->warnings[i], &tallies[i], now_us);
+    }
+}
+
+/* Says that nothing has been heard since the start, and when that ends. */
+static void warn_of_silence(struct node *node, int64_t now_us)
+{
+    const char *url = transport_url(node->transport), *place = transport_place(node->transport);
+    const bool is_silent = node->taken == 0 && now_us >= node->start_us + NOTHING_US;
+    const double since_s = (double)(now_us - node->start_us) / 1e6;
+
+    if (is_silent == node->is_silence_told || !transport_url_is_live(url) ||
+        node->print.is_terminal) {
+        return;
+    }
+    node->is_silence_told = is_silent;
+    if (is_silent) {
+        fprintf(stderr, "rhotrack: no message was heard in the %.0f s since the start; %s\n",
+                since_s, *place ? place : url);
+    } else {
+        fprintf(stderr, "rhotrack: the first message is heard, %.0f s after the start\n", since_s);
     }
 }
 
@@ -649,6 +674,7 @@ static void report_save_and_end_when_due(struct node *node)
     state_saver_save_when_due(&node->snapshot, now_us);
     state_saver_save_when_due(&node->clutter_map, now_us);
     transport_tell_place(node->transport, node->print.is_terminal ? NULL : stderr);
+    warn_of_silence(node, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
     refresh_track_table(node, false);
     warn_of_losses(node);
@@ -713,6 +739,7 @@ int command_node(struct command_line *line)
     if (line->commands) {
         node_core_allow_commands(node.core);
     }
+    node.start_us = node.status_us;
     restore_state(&node, line);
     open_signal_descriptors(&node);
     start_end_watchdog(&node.signals);
