@@ -26,6 +26,7 @@
 #include "live/node_print_tracks.h"
 #include "live/node_sensor_warnings.h"
 #include "live/prometheus_metrics.h"
+#include "live/service_notify.h"
 #include "live/state_saver.h"
 #include "live/stderr_time_stamps.h"
 #include "pipeline/pipeline.h"
@@ -69,6 +70,7 @@ struct node {
     struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
     struct duplicate_senders senders;
+    struct service service;
     int64_t start_us;                /* monotonic time of the start */
     bool is_silence_told;            /* a line says that no message was heard since the start */
     struct scan_interval_hint plots; /* scan intervals of the first HINT_SCANS scans */
@@ -501,8 +503,8 @@ static void wait_and_serve_descriptors(struct node *node)
                              {.fd = node->hang_ups, .events = POLLIN},
                              {.fd = page_server_poll_descriptor(node->pages), .events = POLLIN},
                              {.fd = transport_descriptor(node->transport), .events = POLLIN}};
-    int64_t due_us =
-        earlier_us(earlier_us(node->status_us, node->end_us), node_print_due_us(&node->print));
+    int64_t due_us = earlier_us(earlier_us(node->status_us, node->end_us),
+                                earlier_us(node_print_due_us(&node->print), node->service.due_us));
     int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - monotonic_clock_us();
 
     if (core_due_us != INT64_MAX) {
@@ -655,6 +657,20 @@ static void refresh_track_table(struct node *node, bool is_end)
     }
 }
 
+/* Tells the service manager, where that is due, what the node does, and that its loop goes on. */
+static void tell_service_manager(struct node *node, int64_t now_us)
+{
+    const char *place = transport_place(node->transport);
+    char status[400];
+
+    if (now_us >= node->service.due_us) {
+        snprintf(status, sizeof status, "%s; %" PRIu64 " messages in, %" PRIu32 " steps",
+                 *place ? place : transport_url(node->transport), node->taken,
+                 node_core_node_counters(node->core)->steps);
+        service_tell(&node->service, now_us, status);
+    }
+}
+
 /*
  * Sends the status once a second, refreshes the table, prints warnings, starts due saves, and ends
  * the node at the time of --for.
@@ -675,6 +691,7 @@ static void report_save_and_end_when_due(struct node *node)
     state_saver_save_when_due(&node->clutter_map, now_us);
     transport_tell_place(node->transport, node->print.is_terminal ? NULL : stderr);
     warn_of_silence(node, now_us);
+    tell_service_manager(node, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
     refresh_track_table(node, false);
     warn_of_losses(node);
@@ -741,6 +758,7 @@ int command_node(struct command_line *line)
     }
     node.start_us = node.status_us;
     restore_state(&node, line);
+    node.service = service_open();
     open_signal_descriptors(&node);
     start_end_watchdog(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
@@ -752,6 +770,7 @@ int command_node(struct command_line *line)
         node.end_us = node.status_us + llround(line->seconds * 1e6);
     }
     run_node_until_over(&node);
+    service_close(&node.service);
     finish_and_save_outputs(&node);
     exit_code = node.exit_code;
     page_server_close(node.pages);
