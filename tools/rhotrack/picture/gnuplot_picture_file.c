@@ -28,13 +28,6 @@ int picture_marker(size_t i)
     return markers[i % NUM_COLOURS];
 }
 
-static char *temporary_path(const char *path, const char *ending)
-{
-    char *text = must_alloc(strlen(path) + 40);
-    snprintf(text, strlen(path) + 40, "%s.%ld%s", path, (long)getpid(), ending);
-    return text;
-}
-
 void picture_check_path(const char *path)
 {
     if (!path_ends_with(path, ".svg") && !path_ends_with(path, ".png") &&
@@ -55,33 +48,19 @@ static void set_gnuplot_terminal(const struct picture *picture)
                    : "font 'Helvetica,15'");
 }
 
-/*
- * Writes the output file's name quoted for gnuplot: a single quote within single quotes is doubled.
- */
-static void write_set_output(const struct picture *picture)
-{
-    fputs("set output '", picture->script);
-    for (const char *c = picture->temporary_path; *c; c++) {
-        fputs(*c == '\'' ? "''" : (char[2]){*c, '\0'}, picture->script);
-    }
-    fputs("'\n", picture->script);
-}
-
 struct picture picture_open(const char *path, int width, int height)
 {
     struct picture picture = {
-        .path = must_copy_text(path),
-        .temporary_path = temporary_path(path, ".part"),
-        .script_path = temporary_path(path, ".gnuplot"),
+        .script = tmpfile(),
+        .output = output_open(path),
+        .path = path,
         .width = width,
         .height = height,
     };
-    picture.script = fopen(picture.script_path, "w");
     if (!picture.script) {
-        fail(EXIT_RUNTIME, "%s: %s", picture.script_path, strerror(errno));
+        fail(EXIT_RUNTIME, "%s: no temporary file for gnuplot: %s", path, strerror(errno));
     }
     set_gnuplot_terminal(&picture);
-    write_set_output(&picture);
     fprintf(picture.script, "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
                             "set grid lc rgb '#dddddd' lt 1 lw 0.7\n"
                             "set key outside right top vertical Left reverse\n");
@@ -92,21 +71,22 @@ struct picture picture_open(const char *path, int width, int height)
     return picture;
 }
 
-/* Runs gnuplot on the script; on failure removes the temporary files and exits. */
+/* Runs gnuplot from the script to the output file; on failure exits, and nothing is left. */
 static void run_gnuplot(const struct picture *picture)
 {
     pid_t child = fork();
     int status = 0;
     if (child == 0) {
-        execlp("gnuplot", "gnuplot", picture->script_path, (char *)NULL);
+        if (dup2(fileno(picture->script), STDIN_FILENO) >= 0 &&
+            dup2(fileno(picture->output.file), STDOUT_FILENO) >= 0) {
+            execlp("gnuplot", "gnuplot", "/dev/stdin", (char *)NULL);
+        }
         _exit(127);
     }
     if (child < 0 || waitpid(child, &status, 0) < 0) {
         fail(EXIT_RUNTIME, "gnuplot: %s", strerror(errno));
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        remove(picture->temporary_path);
-        remove(picture->script_path);
         fail(EXIT_RUNTIME, "%s: gnuplot could not draw it%s", picture->path,
              WIFEXITED(status) && WEXITSTATUS(status) == 127
                  ? ": it is not installed (apt-get install gnuplot-nox)"
@@ -127,15 +107,12 @@ void picture_set_title(const struct picture *picture, const char *format, ...)
 
 void picture_draw_and_close(struct picture *picture)
 {
-    if (fclose(picture->script)) {
-        fail(EXIT_RUNTIME, "%s: %s", picture->script_path, strerror(errno));
+    if (fflush(picture->script) || ferror(picture->script)) {
+        fail(EXIT_RUNTIME, "%s: commands for gnuplot cannot be written: %s", picture->path,
+             strerror(errno));
     }
+    rewind(picture->script);
     run_gnuplot(picture);
-    remove(picture->script_path);
-    if (rename(picture->temporary_path, picture->path)) {
-        fail(EXIT_RUNTIME, "%s: %s", picture->path, strerror(errno));
-    }
-    free(picture->path);
-    free(picture->temporary_path);
-    free(picture->script_path);
+    (void)fclose(picture->script);
+    output_close(&picture->output);
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * gnuplot_picture_file: an SVG or PNG drawn by gnuplot, chosen by the ending of its name. The
- * caller writes gnuplot commands; the file appears under its name when it is complete.
+ * caller writes gnuplot commands; the file appears under its name when it is complete. gnuplot
+ * reads its standard input and writes its standard output, and never sees a name: it runs names
+ * such as '|command' and '<command' in a shell.
  */
 #ifndef RHOTRACK_TOOL_GNUPLOT_PICTURE_FILE_H
 #define RHOTRACK_TOOL_GNUPLOT_PICTURE_FILE_H
@@ -9,9 +11,12 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "base/common.h"
+
 struct picture {
-    FILE *script; /* file to which gnuplot commands are written */
-    char *path, *temporary_path, *script_path;
+    FILE *script; /* file without a name, to which gnuplot commands are written */
+    struct output output;
+    const char *path;  /* of the caller */
     int width, height; /* pixels of the SVG; a PNG has twice as many each way */
 };
 
@@ -20,7 +25,7 @@ void picture_check_path(const char *path);
 
 /*
  * Starts a picture of width x height pixels with the common style: fonts, grid, colours as line
- * types 1 .. 8.
+ * types 1 .. 8. The path must outlive it.
  */
 struct picture picture_open(const char *path, int width, int height);
 
