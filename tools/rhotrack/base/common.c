@@ -60,6 +60,15 @@ bool is_end_signal_pending(void)
 
 _Thread_local void (*fail_handler)(int exit_code, const char *message);
 
+void mask_control_characters(char *text)
+{
+    for (; *text; text++) {
+        if ((unsigned char)*text < ' ' || *text == 127) {
+            *text = '?';
+        }
+    }
+}
+
 void fail(int exit_code, const char *format, ...)
 {
     char message[8192];
@@ -68,11 +77,7 @@ void fail(int exit_code, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    for (char *c = message; *c; c++) {
-        if ((unsigned char)*c < ' ' || *c == 127) {
-            *c = '?';
-        }
-    }
+    mask_control_characters(message);
     if (fail_handler) {
         fail_handler(exit_code, message);
     }

@@ -29,6 +29,9 @@ _Noreturn void fail(int exit_code, const char *format, ...) __attribute__((forma
  */
 extern _Thread_local void (*fail_handler)(int exit_code, const char *message);
 
+/* Replaces control characters by ?, so that the text is one line wherever it is written. */
+void mask_control_characters(char *text);
+
 /* malloc, calloc, realloc that end the program with exit 1 when memory is out. */
 void *must_alloc(size_t bytes);
 void *must_calloc(size_t count, size_t size);

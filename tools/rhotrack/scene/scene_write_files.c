@@ -328,11 +328,13 @@ static void write_sensor_settings(const struct scene_sensor *sensor, FILE *file)
 static void write_settings_file(const struct scene *scene, const char *scene_name,
                                 const char *folder)
 {
-    char *path = path_join(folder, "scenario.ini");
+    char *path = path_join(folder, "scenario.ini"), *name = must_copy_text(scene_name);
     struct output output = output_open(path);
 
-    fprintf(output.file, "# scene %s: what a tracker may know beforehand\n%s", scene_name,
+    mask_control_characters(name); /* of a file that may have any: no line of its own */
+    fprintf(output.file, "# scene %s: what a tracker may know beforehand\n%s", name,
             scene->settings);
+    free(name);
     if (scene->num_radars > 0 && scene->sensors[0].is_cartesian) {
         fprintf(output.file, "sigma_m = %.9g\npd = %.9g\n", scene->sensors[0].told.sigma_m,
                 scene->sensors[0].told.pd);
