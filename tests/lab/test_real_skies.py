@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """The experiment from end to end on small scenes. Program in $RHOTRACK."""
+import html.parser
 import json
 import os
 import pathlib
 import subprocess
 import tempfile
 import unittest
+import urllib.parse
 
 import lab_test_setup
 
@@ -100,6 +102,24 @@ class RealSkies(unittest.TestCase):
         other = json.loads(
             self.run_it("--scene", "small", "--runs", "3", "--json", "--seed", "9").stdout)
         self.assertNotEqual(other["scenes"][0]["runs"], scene["runs"])
+
+    def test_a_scenes_name_is_no_part_of_the_page(self):
+        name = '"><img src="x" onerror="run()"> <script>&$x_{$ #?%41'
+        path = self.folder / f"{name}.json"
+        path.write_text(json.dumps({**SCENE, "text": "</p><script>run()</script>"}))
+        done = self.run_it("--scene", str(path), "--runs", "1", "--no-oracle", "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        tags, sources = [], []
+
+        class Page(html.parser.HTMLParser):
+            def handle_starttag(self, tag, attrs):
+                tags.append((tag, *(key for key, _ in attrs)))
+                sources.extend(value for key, value in attrs if key == "src")
+
+        Page().feed((self.folder / "out" / "index.html").read_text())
+        self.assertFalse([one for one in tags if "script" in one or "onerror" in one])
+        self.assertEqual([urllib.parse.unquote(one) for one in sources], [f"{name}.png"])
+        self.assertTrue((self.folder / "out" / f"{name}.png").exists())
 
     def test_lines_and_settings_of_the_tracker(self):
         done = self.run_it("--scene", str(self.folder / "scenes" / "small.json"), "--runs", "1",

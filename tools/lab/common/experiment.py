@@ -15,6 +15,7 @@ import os
 import pathlib
 import sys
 import textwrap
+import urllib.parse
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # matrices are small, and runs go side by side
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -165,8 +166,9 @@ class Report:
         self.options.output.mkdir(parents=True, exist_ok=True)
         figure.savefig(self.options.output / f"{name}.svg", bbox_inches="tight")
         plt.close(figure)
-        self.page.append(f'<figure><img src="{name}.svg" alt="{html.escape(caption)}">'
-                         f"<figcaption>{html.escape(caption)}</figcaption></figure>")
+        caption = html.escape(caption)
+        self.page.append(f'<figure><img src="{urllib.parse.quote(name)}.svg" alt="{caption}">'
+                         f"<figcaption>{caption}</figcaption></figure>")
 
     def fact(self, name, value):
         """A figure, or a list of objects, under its name in the JSON object."""

@@ -59,7 +59,8 @@ def plan(path, title, sensors, plots, truth, tracks, false_rows):
     low, high = (places[:, :2] - places[:, 2:]).min(axis=0), (places[:, :2] +
                                                               places[:, 2:]).max(axis=0)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x km",
-             ylabel="y km", title=title)
+             ylabel="y km")
+    axes.set_title(title, parse_math=False)
     axes.legend(loc="upper right", fontsize=8, framealpha=0.9, markerscale=3)
     figure.tight_layout()
     figure.savefig(path)

@@ -2,6 +2,7 @@
 """The HTML page of the experiment: one table, one picture a scene."""
 import html
 import os
+import urllib.parse
 
 STYLE = """body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:72rem;
 margin:2rem auto;padding:0 1rem}
@@ -34,8 +35,8 @@ def table(results, columns, rows_of):
             texts = "".join(f'<td class="{classes[None if met is None else bool(met)]}">'
                             f"{html.escape(text).replace('+-', ' &plusmn; ')}</td>"
                             for text, met in cells)
-            name = (f'<a href="#{result["name"]}">{html.escape(result["name"])}</a>'
-                    if label == "today" else "")
+            name = (f'<a href="#{urllib.parse.quote(result["name"])}">'
+                    f'{html.escape(result["name"])}</a>' if label == "today" else "")
             lines.append(
                 f'<tr class="{"first" if label == "today" else label}"><td class="n">{name}</td>'
                 f'<td class="w">{label}</td>{texts}</tr>')
@@ -81,12 +82,13 @@ def write(path, results, alarms, longs, options, columns, rows_of, consistency):
             table(results, columns, rows_of)
         ]
         for result in results:
-            body.append(f'<h2 id="{result["name"]}">{html.escape(result["name"])}</h2>')
+            name = html.escape(result["name"])  # of a file, which may have any
+            body.append(f'<h2 id="{name}">{name}</h2>')
             if result["about"]:
                 body.append(f"<p>{html.escape(result['about'])}</p>")
             body.append(
-                f'<figure><img src="{result["name"]}.png" '
-                f'alt="Plan view of {html.escape(result["name"])}">'
+                f'<figure><img src="{urllib.parse.quote(result["name"])}.png" '
+                f'alt="Plan view of {name}">'
                 f"<figcaption>{CAPTION.format(seed=options.seed)}</figcaption></figure>")
         body += ["<h2>Consistency</h2>", CONSISTENCY, consistency_table(results, *consistency)]
     if alarms:
