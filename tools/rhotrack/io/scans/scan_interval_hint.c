@@ -31,8 +31,8 @@ struct scan_summary {
 
 static bool summarise_first_part(const struct message_event *event, struct scan_summary *summary)
 {
-    static struct rho_message_plot_scan plots;
-    static struct rho_message_polar_scan polar;
+    static _Thread_local struct rho_message_plot_scan plots;
+    static _Thread_local struct rho_message_polar_scan polar;
 
     if (text_begins_with(event->channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL) &&
         rho_message_polar_scan_decode(event->data, event->size, &polar) == RHO_OK) {

@@ -79,8 +79,8 @@ bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id, int64
  */
 static bool test_and_set_file_reported(const char *path)
 {
-    static uint64_t said[FILES_REMEMBERED];
-    static size_t num_said;
+    static _Thread_local uint64_t said[FILES_REMEMBERED];
+    static _Thread_local size_t num_said;
     uint64_t sum = 14695981039346656037u;
 
     for (; *path; path++) {
