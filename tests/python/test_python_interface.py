@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The package by itself: arrays and frames in, errors that name what is wrong, files, parts."""
 import math
+import multiprocessing
 import os
 import struct
 import subprocess
+import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -273,6 +276,154 @@ def test_rows_are_divided_by_counts():
     scans = rhotrack.Scans(rows, counts=[2, 2, 4, 2])
     assert [len(one) for one in scans] == [2, 2, 4, 2]
     np.testing.assert_array_equal(scans.rows["x_m"], rows["x_m"])
+
+
+@pytest.mark.parametrize("counts", [
+    np.array([2, 9, 2, 9, 4, 9, 2, 9])[::2], np.array([2, 4, 2, 2], "i1")[::-1],
+    np.array([2, 2, 4, 2], ">u4"), np.array([[2, 0], [2, 0], [4, 0], [2, 0]], "u4")[:, 0],
+    np.array([2, 9, 2, 9, 4, 9, 2, 9], "u4")[::2], (2, 2, 4, 2)])
+def test_counts_of_any_strides_and_type_are_their_numbers(counts):
+    rows = np.concatenate(one_target(5))
+    assert [len(one) for one in rhotrack.Scans(rows, counts=counts)] == [2, 2, 4, 2]
+
+
+@pytest.mark.parametrize("counts, told", [
+    ([2**32 + 4, 6], "scan 0 .* 4294967300 rows"), ([4, -2, 8], "scan 1 .* -2 rows"),
+    (np.array([-4, 14], "i8"), "scan 0 .* -4 rows"), ([[4], [6]], r"shape \(2, 1\)"), (10, "shape"),
+    ([4.5, 5.5], "float64"), ([4, np.nan], "float64"), ([4, None], "object"), (["10"], "<U2"),
+    ([2**70, 6], "object"), ([True] * 10, "bool"), ([10, 1], "11 rows, and there are 10"),
+    ([4, 4], "8 rows, and there are 10"), ([], "0 rows, and there are 10"),
+    ([10, 0], "scan 1 has no row"), ([2**31, 2**31, 10], "scan 0")])
+def test_wrong_counts_are_named(counts, told):
+    with pytest.raises(rhotrack.Error, match=told):
+        rhotrack.Scans(np.concatenate(one_target(5)), counts=counts)
+
+
+def test_rows_in_the_layout_of_c_may_have_strides():
+    bearings = two_sensors().rows
+    rows = np.zeros(40, rhotrack.scans.ROW)
+    for name in rows.dtype.names:
+        rows[name] = 0 if name == "sensor_id" else np.nan
+    for name in bearings.dtype.names:
+        rows[name][::2] = bearings[name]
+    expected = [len(one) for one in two_sensors()]
+    for strided in (rows[::2], rows[::-1][1::2][::-1]):
+        made = rhotrack.Scans(strided, counts=expected)
+        np.testing.assert_array_equal(made.rows, bearings)
+    np.testing.assert_array_equal(rhotrack.Scans([rows[:8:2]]).rows, bearings[:4])
+    for make in (lambda: rhotrack.Scans(rows.reshape(10, 4), counts=[10]),
+                 lambda: rhotrack.Scans(rows.reshape(10, 4)),
+                 lambda: rhotrack.Tracker().step(rows.reshape(2, 20))):
+        with pytest.raises(rhotrack.Error, match="one dimension"):
+            make()
+
+
+@pytest.mark.parametrize("wrong", [
+    np.array([2**31], "u4"), np.array([-2**63], "i8"), np.array([1.5]), np.array([np.inf], "f4"),
+    np.array([2**63], "u8")])
+def test_a_sensor_id_beyond_32_bits_is_named(wrong):
+    with pytest.raises(rhotrack.Error, match="sensor_id .* 32 bits"):
+        rhotrack.Scans({"t_s": [0.0], "sensor_id": wrong, "x_m": [1.0], "y_m": [1.0]})
+
+
+def test_no_array_with_strides_reaches_c():
+    for array in (np.zeros(4, "u4")[::2], np.zeros(4, "u8"), np.zeros((2, 3), "u4").T):
+        with pytest.raises(rhotrack.Error, match="strides"):
+            rhotrack._core.pointer_to(array, "uint32_t *")
+    for bearings in ([[0.1, 0.2], [0.3, 0.4]], np.zeros((1, 2))):
+        with pytest.raises(rhotrack.Error, match="lists"):
+            rhotrack.ghosts(bearings, [0.1], (0, 0), (1000, 0), 1e5)
+    even = rhotrack.ghosts(np.array([1.2, 9, 1.0, 9])[::2], [1.8], (0, 0), (1000, 0), 1e5)
+    np.testing.assert_array_equal(
+        even.delta_rad, rhotrack.ghosts([1.2, 1.0], [1.8], (0, 0), (1000, 0), 1e5).delta_rad)
+
+
+# ---- Threads ----
+
+def many_plots(count=10):
+    clutter = np.random.default_rng(2).uniform(-2e4, 2e4, (count, 40, 2))
+    return rhotrack.Scans([scan(4 * i, (1000 + 400 * i, 2000), *clutter[i]) for i in range(count)])
+
+
+def two_sensors(count=5):
+    kind = [("t_s", "f8"), ("sensor_id", "i4"), ("sensor_x_m", "f4"), ("sensor_y_m", "f4"),
+            ("bearing_rad", "f4")]
+    return rhotrack.Scans([np.array([
+        (4 * i, sensor, x, 0, math.atan2(20000, 500 * i + offset - x))
+        for sensor, x in ((1, 0), (2, 8000)) for offset in (2000, 5000)], kind)
+        for i in range(count)])
+
+
+def moving():
+    kalman = rhotrack.Kalman()
+    for axis in (0, 1):
+        kalman.open_axis(axis, 1000.0, 100.0, 1e4)
+    return kalman
+
+
+def told_of(one):
+    return [one.counters, one.life, one.sensors, one.work, one.fates.tolist()]
+
+
+USES = {
+    "Tracker": (lambda: rhotrack.Tracker(**SETTINGS), lambda one, scans: one.run(scans), told_of),
+    "Maintainer": (
+        lambda: rhotrack.Maintainer(**SETTINGS), lambda one, scans: one.run(scans),
+        lambda one: [one.hypotheses.tolist(), one.refused.tolist()]),
+    "Node": (
+        lambda: rhotrack.Node(**SETTINGS),
+        lambda one, scans: [one.take("RHO_PLOTS", b"nonsense", 1.0), one.flush(), one.status()],
+        lambda one: one.tracks.tolist()),
+    "Initiator": (
+        lambda: rhotrack.Initiator(**SETTINGS), lambda one, scans: one.find(scans),
+        lambda one: {**one.work, "search_us": 0}),
+    "ht": (
+        lambda: rhotrack.Initiator(method="ht", d_rho_m=20000, **SETTINGS),
+        lambda one, scans: one.find(scans), lambda one: {**one.work, "search_us": 0}),
+    "Passive": (
+        lambda: rhotrack.Passive(), lambda one, scans: one.find(two_sensors()),
+        lambda one: one.claims.tolist()),
+    "Kalman": (
+        moving, lambda one, scans: one.update(0, 1000.0, 100.0), lambda one: one.state.tolist()),
+    "Imm": (
+        lambda: rhotrack.Imm(moving()), lambda one, scans: one.predict(0.01),
+        lambda one: one.estimate.covariance.tolist()),
+    "InputEstimation": (
+        lambda: rhotrack.InputEstimation(moving()), lambda one, scans: one.predict(0.01),
+        lambda one: one.estimate.covariance.tolist()),
+}
+
+
+def use_in_threads(make, use, tell, rounds):
+    """Of a process of its own, which a fault would end: four threads leave what one would."""
+    scans, alone, shared, faults = many_plots(), make(), make(), []
+
+    def repeat(one, times):
+        try:
+            for _ in range(times):
+                use(one, scans)
+                tell(one)
+        except Exception as error:
+            faults.append(error)
+
+    sys.setswitchinterval(1e-6)
+    repeat(alone, 4 * rounds)
+    threads = [threading.Thread(target=repeat, args=(shared, rounds)) for _ in range(4)]
+    for one in threads:
+        one.start()
+    for one in threads:
+        one.join()
+    os._exit(0 if not faults and tell(alone) == tell(shared) else 3)
+
+
+@pytest.mark.parametrize("name", USES)
+def test_an_object_is_as_right_in_four_threads(name):
+    rounds = 3000 if name in ("Kalman", "Imm", "InputEstimation") else 20
+    process = multiprocessing.get_context("fork").Process(
+        target=use_in_threads, args=(*USES[name], rounds))
+    process.start()
+    process.join(60)
+    assert process.exitcode == 0
 
 
 # ---- Files ----

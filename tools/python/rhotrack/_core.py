@@ -2,7 +2,9 @@
 """What all parts share: the C below, errors, and C structs as numpy types."""
 from __future__ import annotations
 
-from typing import Any
+import functools
+import threading
+from typing import Any, Callable, TypeVar
 
 import numpy as np
 
@@ -32,6 +34,29 @@ def must_succeed(status: int, what: str) -> None:
         raise Error(f"{what}: the library refuses it: {name}")
 
 
+class Shared:
+    """An object of C, which no two threads may use at a time; its calls in_turn wait for one
+    another."""
+    _turn: Any
+
+    def __new__(cls, *given: Any, **named: Any) -> Any:
+        self = super().__new__(cls)
+        self._turn = threading.RLock()
+        return self
+
+
+Call = TypeVar("Call", bound=Callable[..., Any])
+
+
+def in_turn(call: Call) -> Call:
+    """A method of a Shared, which waits until no other thread is in one."""
+    @functools.wraps(call)
+    def wait(self: Shared, *given: Any, **named: Any) -> Any:
+        with self._turn:
+            return call(self, *given, **named)
+    return wait  # type: ignore[return-value]
+
+
 FORMATS = {"double": "f8", "float": "f4", "int32_t": "i4", "uint32_t": "u4", "int16_t": "i2",
            "uint16_t": "u2", "uint8_t": "u1", "int64_t": "i8", "int": "i4"}
 
@@ -56,7 +81,9 @@ def array_of(pointer: Any, count: int, dtype: Any) -> np.ndarray:
 
 
 def pointer_to(array: np.ndarray, ctype: str) -> Any:
-    """The memory of an array, which must outlive the pointer."""
+    """The memory of an array, which must outlive the pointer. C knows nothing of strides."""
+    if not array.flags.c_contiguous or array.itemsize != ffi.sizeof(ffi.typeof(ctype).item):
+        raise Error(f"an array of {array.dtype} in strides of {array.strides} is no {ctype}")
     return ffi.cast(ctype, ffi.from_buffer(array))
 
 

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._core import NULL, Error, array_of, ffi, lib, must_succeed, names_of, pointer_to
+from ._core import (NULL, Error, Shared, array_of, ffi, in_turn, lib, must_succeed, names_of,
+                    pointer_to)
 from .scans import Scans
 from .settings import Settings
 
@@ -36,33 +37,38 @@ class _Plot:
         self.sensor = ffi.addressof(made.sensor) if made.has_sensor else NULL
 
 
-class Kalman:
+class Kalman(Shared):
     """Nearly constant velocity, updated by one scalar at a time (rhotrack/detail/kalman.h)."""
 
     def __init__(self) -> None:
         self.struct = ffi.new("struct rho_kalman *")
 
     @property
+    @in_turn
     def state(self) -> np.ndarray:
         """(6,): x, y, z in m, vx, vy, vz in m/s."""
         return array_of(self.struct.state, 6, "f4")
 
     @property
+    @in_turn
     def covariance(self) -> np.ndarray:
         """(6, 6), symmetric; m^2, m^2/s, m^2/s^2."""
         return _matrix(self.struct.covariance)
 
+    @in_turn
     def open_axis(self, axis: int, position_m: float, position_variance: float,
                   velocity_variance: float) -> None:
         """Opens axis 0 (x), 1 or 2 with a first position (m, m^2) and velocity 0 (m^2/s^2)."""
         must_succeed(lib.rho_kalman_open_axis(self.struct, axis, position_m, position_variance,
                                               velocity_variance), "axis, position or variance")
 
+    @in_turn
     def predict(self, dt_s: float, noise_density: float = 0.0) -> None:
         """Moves on by dt_s with white acceleration of noise_density, m^2/s^3."""
         must_succeed(lib.rho_kalman_predict(self.struct, dt_s, noise_density),
                      "dt_s or noise_density")
 
+    @in_turn
     def update(self, element: int, value: float, variance: float) -> float:
         """Element 0 .. 5 of the state was measured; returns the NIS."""
         nis = ffi.new("float *")
@@ -70,6 +76,7 @@ class Kalman:
                      "element, value or variance")
         return nis[0]
 
+    @in_turn
     def update_plot(self, plot: np.ndarray, velocity_variance: float,
                     settings: Settings | None = None) -> None:
         """Takes a plot's place, and its range rate if it has one; axes open with
@@ -83,13 +90,14 @@ class Kalman:
                 self.struct, seen.sensor, seen.plot.range_rate_mps,
                 seen.plot.sigma_range_rate_mps**2), "range_rate_mps or sigma_range_rate_mps")
 
+    @in_turn
     def update_bearing(self, x_m: float, y_m: float, bearing_rad: float, sigma_rad: float) -> None:
         """Takes a bearing from a place (m, rad)."""
         must_succeed(lib.rho_kalman_update_bearing(self.struct, x_m, y_m, bearing_rad, sigma_rad),
                      "x_m, y_m, bearing_rad or sigma_rad")
 
 
-class Imm:
+class Imm(Shared):
     """Two models, steady and manoeuvring (rhotrack/detail/imm.h); starts from a Kalman."""
 
     def __init__(self, start: Kalman, accel_max_mps2: float = 30.0,
@@ -98,14 +106,17 @@ class Imm:
         lib.rho_imm_model_default(self.model, accel_max_mps2, v_max_mps)
         if not lib.rho_imm_model_is_usable(self.model):
             raise Error("accel_max_mps2 or v_max_mps is out of range")
-        lib.rho_imm_start(self.struct, self.model, start.struct)
+        with start._turn:
+            lib.rho_imm_start(self.struct, self.model, start.struct)
 
+    @in_turn
     def predict(self, dt_s: float) -> None:
         """Mixes the models, and moves both on."""
         step = ffi.new("struct rho_imm_step *")
         lib.rho_imm_prepare_step(step, self.model, dt_s)
         must_succeed(lib.rho_imm_predict(self.struct, step), "dt_s")
 
+    @in_turn
     def update(self, plot: np.ndarray, settings: Settings | None = None) -> float | None:
         """Takes a plot; returns ln of its density, or None where it is outside of the gate."""
         seen, match = _Plot(plot, settings), ffi.new("struct rho_imm_match *")
@@ -117,11 +128,13 @@ class Imm:
         return match.log_likelihood
 
     @property
+    @in_turn
     def maneuver_probability(self) -> float:
         """Of the manoeuvring model."""
         return self.struct.probability
 
     @property
+    @in_turn
     def estimate(self) -> Kalman:
         """The mean over both models, and its covariance."""
         estimate = Kalman()
@@ -129,6 +142,7 @@ class Imm:
         return estimate
 
     @property
+    @in_turn
     def accel_mps2(self) -> np.ndarray:
         """(3,), m/s^2."""
         accel = ffi.new("float[3]")
@@ -136,7 +150,7 @@ class Imm:
         return array_of(accel, 3, "f4")
 
 
-class InputEstimation:
+class InputEstimation(Shared):
     """A Kalman filter that estimates the target's acceleration
     (rhotrack/detail/input_estimation.h).
 
@@ -157,13 +171,16 @@ class InputEstimation:
             if not hasattr(self.config, name):
                 raise Error(f"there is no {name} of struct rho_input_config")
             setattr(self.config, name, value)
-        must_succeed(lib.rho_input_start(self.struct, self.config, start.struct),
-                     ", ".join(config) or "onset_confidence or start")
+        with start._turn:
+            must_succeed(lib.rho_input_start(self.struct, self.config, start.struct),
+                         ", ".join(config) or "onset_confidence or start")
 
+    @in_turn
     def predict(self, dt_s: float) -> None:
         """Moves on by dt_s."""
         must_succeed(lib.rho_input_predict(self.struct, self.config, dt_s), "dt_s")
 
+    @in_turn
     def update(self, element: int, value: float, variance: float) -> None:
         """Element 0 .. 5 of the state was measured."""
         must_succeed(
@@ -171,6 +188,7 @@ class InputEstimation:
                                                    variance),
             "element, value or variance")
 
+    @in_turn
     def update_plot(self, plot: np.ndarray, settings: Settings | None = None) -> None:
         """Takes a plot's place."""
         seen, measurement = _Plot(plot, settings), ffi.new("struct rho_measurement *")
@@ -178,11 +196,13 @@ class InputEstimation:
         must_succeed(lib.rho_input_update_position(self.struct, self.config, measurement),
                      "x_m, y_m, z_m or a sigma")
 
+    @in_turn
     def decide(self) -> None:
         """Tests each axis for an input; once a scan, after its updates."""
         lib.rho_input_decide(self.struct, self.config)
 
     @property
+    @in_turn
     def estimate(self) -> Kalman:
         """The corrected estimate."""
         estimate = Kalman()
@@ -190,11 +210,13 @@ class InputEstimation:
         return estimate
 
     @property
+    @in_turn
     def input_mps2(self) -> np.ndarray:
         """(3,), m/s^2; is_present says which count."""
         return array_of(self.struct.input_mps2, 3, "f4")
 
     @property
+    @in_turn
     def is_present(self) -> np.ndarray:
         """(3,), bool."""
         return (self.struct.present >> np.arange(3) & 1).astype(bool)
@@ -248,6 +270,8 @@ def ghosts(bearings_a_rad: Any, bearings_b_rad: Any, place_a_m: tuple[float, flo
     base, matrix = ffi.new("struct rho_crossing_base *"), ffi.new("struct rho_ghost_matrix *")
     must_succeed(lib.rho_crossing_set_base(base, *place_a_m, *place_b_m), "place_a_m or place_b_m")
     a, b = (np.ascontiguousarray(one, "f4") for one in (bearings_a_rad, bearings_b_rad))
+    if a.ndim != 1 or b.ndim != 1:
+        raise Error(f"bearings_a_rad, bearings_b_rad: lists are wanted, not {a.shape}, {b.shape}")
     must_succeed(lib.rho_ghost_fill(matrix, base, pointer_to(a, "float *"), len(a),
                                     pointer_to(b, "float *"), len(b), range_max_m),
                  "bearings_a_rad, bearings_b_rad or range_max_m")

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._core import NULL, Error, array_of, dtype_of, ffi, lib, must, must_succeed, plain, pointer_to
+from ._core import (NULL, Error, Shared, array_of, dtype_of, ffi, in_turn, lib, must, must_succeed,
+                    plain, pointer_to)
 from .filters import Ghosts, ghosts
 from .scans import Scans, as_scans
 from .settings import Settings, settings_of
@@ -34,7 +35,7 @@ def heights(track: Any, are_known: bool) -> tuple[float, float]:
     return (track.z_m, track.vz_mps) if are_known else (np.nan, np.nan)
 
 
-class Initiator:
+class Initiator(Shared):
     """Tracks of the last scans of plots, as `rhotrack initiate` finds them.
 
     method: "kernel", the tracker's own, or "ht", "mht", "iht", "nht", the papers'. find returns a
@@ -54,6 +55,7 @@ class Initiator:
         self._memory = ffi.new("struct rho_initiator *" if method == "kernel"
                                else "struct rho_hough *")
 
+    @in_turn
     def find(self, scans: Any) -> np.ndarray:
         """Searches the last `scans` (a parameter) of the scans, as one batch."""
         held = self._held(scans)
@@ -61,6 +63,7 @@ class Initiator:
             return np.empty(0, FOUND)
         return self._find_kernel(held) if self.method == "kernel" else self._find_hough(held)
 
+    @in_turn
     def lines(self, scans: Any) -> np.ndarray:
         """The peaks of the papers' plane, best first: rho_m, theta_rad, votes. find fits a track to
         each of them, which takes longer than the search."""
@@ -75,6 +78,7 @@ class Initiator:
         found["votes"] = peaks["votes"] / lib.RHO_HOUGH_VOTE
         return found
 
+    @in_turn
     def accumulator(self, scans: Any) -> Accumulator:
         """The votes of every cell of the papers' plane; cells are d_rho_m by d_theta_rad."""
         points = self._points(scans)
@@ -190,7 +194,7 @@ class _Points:
             "t_s": pointer_to(self.t_s, "float *")})
 
 
-class Passive:
+class Passive(Shared):
     """Tracks of the last frames of bearings, as `rhotrack initiate` finds them.
 
     method: "passive", the tracker's own, or "passive-paper", the paper's to the letter. Tracks are
@@ -209,6 +213,7 @@ class Passive:
                                                                       self.config))
         self._search = ffi.new(f"struct {name} *")
 
+    @in_turn
     def find(self, frames: Any) -> np.ndarray:
         """Searches the last rows of looks, as many as a batch holds."""
         scans = as_scans(frames, self.settings)
@@ -227,6 +232,7 @@ class Passive:
         return np.array([(i + 1, time_s, *row) for i, row in enumerate(rows)], FOUND)
 
     @property
+    @in_turn
     def covariances(self) -> np.ndarray:
         """Of the tracks of the last find, method "passive": (tracks, 4, 4), of x, y, vx, vy."""
         found = self._found()
@@ -237,6 +243,7 @@ class Passive:
         return whole
 
     @property
+    @in_turn
     def claims(self) -> np.ndarray:
         """The bearings of the tracks of the last find, method "passive": (tracks, frames, sensors),
         the bearing's number among its sensor's of the frame, from 0; -1: none."""

@@ -57,11 +57,9 @@ class Scans(Sequence):
             rows, counts, are_frames = _flat(
                 data if _is_list(data) else _split(records(data), settings))
         else:
-            array, counts = records(data), np.asarray(counts, "u4")
-            rows = _full(array)
+            array = records(data)
+            rows, counts = _full(array), _checked_counts(counts, len(array))
             are_frames = np.full(len(counts), "bearing_rad" in array.dtype.names)
-            if counts.sum() != len(rows):
-                raise Error(f"counts of {counts.sum()} rows, and there are {len(rows)}")
         handle = lib.program_scans_from_rows(
             pointer_to(rows, "struct program_row *"), pointer_to(counts, "uint32_t *"),
             pointer_to(are_frames, "bool *"), len(counts), settings.handle)
@@ -186,6 +184,8 @@ def records(data: Any) -> np.ndarray:
     if isinstance(data, (np.ndarray, np.void)):
         if data.dtype.names is None:
             raise Error("an array without named fields: t_s, sensor_id, x_m, y_m, ...")
+        if data.ndim > 1:
+            raise Error(f"an array of rows has one dimension, not the shape {data.shape}")
         return np.atleast_1d(data)
     if not isinstance(data, dict) and not hasattr(data, "columns"):
         raise Error(f"{type(data).__name__} is neither a structured array nor a data frame")
@@ -297,7 +297,7 @@ def _copied(dtype: np.dtype) -> list[str]:
 def _full(array: np.ndarray) -> np.ndarray:
     """Rows with all fields, in the layout of C."""
     if array.dtype == ROW:
-        return array
+        return np.ascontiguousarray(array)
     copied, names = _copied(array.dtype), array.dtype.names
     _check_ids(array["sensor_id"])
     rows = np.empty(len(array), ROW)
@@ -313,17 +313,33 @@ def _full(array: np.ndarray) -> np.ndarray:
 
 
 def _check_ids(ids: np.ndarray) -> None:
-    if ids.dtype.kind == "f" or ids.dtype.itemsize > 4:
-        is_wrong = ~(np.abs(ids) < 2**31) | (ids != np.round(ids))
+    if not np.can_cast(ids.dtype, "i4"):
+        given = ids.astype("f8")
+        is_wrong = ~((given >= -2**31) & (given < 2**31) & (given == np.round(given)))
         if is_wrong.any():
             row = is_wrong.argmax()
             raise Error(f"row {row}: sensor_id {ids[row]} is not a whole number of 32 bits")
 
 
+def _checked_counts(counts: Any, num_rows: int) -> np.ndarray:
+    """How many rows each scan has, in the memory that C reads; together they are all rows."""
+    given = np.asarray(counts)
+    if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
+        raise Error(f"counts: a list of whole numbers is wanted, not {given.dtype} of the shape "
+                    f"{given.shape}")
+    is_wrong = (given < 0) | (given > num_rows)
+    if is_wrong.any():
+        scan = is_wrong.argmax()
+        raise Error(f"counts: scan {scan} cannot have {given[scan]} rows, of {num_rows}")
+    made = np.ascontiguousarray(given, "u4")
+    if made.sum(dtype="u8") != num_rows:
+        raise Error(f"counts of {made.sum(dtype='u8')} rows, and there are {num_rows}")
+    return made
+
+
 def _flat(scans: Iterable[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """All rows, how many each scan has, and which are frames."""
-    arrays = [scan if isinstance(scan, np.ndarray) and scan.dtype.names else records(scan)
-              for scan in scans]
+    arrays = [records(scan) for scan in scans]
     counts = np.array([len(array) for array in arrays], "u4")
     are_frames = np.array(["bearing_rad" in array.dtype.names for array in arrays], bool)
     if not arrays:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from . import pictures
-from ._core import FATES, NULL, Error, array_of, ffi, lib, must, plain, pointer_to
+from ._core import (FATES, NULL, Error, Shared, array_of, ffi, in_turn, lib, must, plain,
+                    pointer_to)
 from .scans import BODY, COVARIANCE, TRACK, as_scans, records
 from .settings import Settings, settings_of
 
@@ -49,7 +50,7 @@ def _plain_array(tracks: Any) -> np.ndarray:
     return wide
 
 
-class Tracker:
+class Tracker(Shared):
     """Scans in, tracks out, as `rhotrack track` does it.
 
     Tracks are structured arrays, a row each track and scan, with the columns of the program's
@@ -70,6 +71,7 @@ class Tracker:
         """Takes one scan, or one frame of bearings (see Scans); returns the tracks at its time."""
         return self.run([scan if isinstance(scan, np.ndarray) else records(scan)])
 
+    @in_turn
     def run(self, scans: Any) -> np.ndarray:
         """Takes many scans in one call of C; returns the tracks of all steps, one after the other.
 
@@ -81,6 +83,7 @@ class Tracker:
         return _array(self._pipeline.tracks)
 
     @property
+    @in_turn
     def fates(self) -> np.ndarray:
         """What the last step did with each plot, in the order of the scan: "claimed", "held",
         ..."""
@@ -89,12 +92,14 @@ class Tracker:
         return FATES[array_of(report.fates, count, "u1")]
 
     @property
+    @in_turn
     def ended(self) -> np.ndarray:
         """track_id of the confirmed tracks that ended in the last step."""
         report = self._pipeline.report
         return array_of(report.ended, report.num_ended, "u4")
 
     @property
+    @in_turn
     def counters(self) -> dict[str, Any]:
         """Counts since the start; fates by their names."""
         counters = plain(self._pipeline.tracker.counters)
@@ -102,22 +107,26 @@ class Tracker:
         return counters
 
     @property
+    @in_turn
     def min_scans(self) -> int:
         """Hits in the window that start a track, M, as the clutter of the newest plots asks for."""
         return self._pipeline.min_scans
 
     @property
+    @in_turn
     def work(self) -> dict[str, int]:
         """Units of work of the last step and the worst one, and what work_max cut."""
         return plain(self._pipeline.tracker.work)
 
     @property
+    @in_turn
     def thresholds_nat(self) -> tuple[float, float]:
         """Scores that start and confirm a track, of the last search for new ones."""
         tracker = self._pipeline.tracker
         return tracker.start_mnat / 1000, tracker.confirm_mnat / 1000
 
     @property
+    @in_turn
     def life(self) -> dict[str, float]:
         """death_rate, hide_rate and appear_rate, at which targets leave, are hidden and are visible
         again in a scan interval; lived_scans: intervals from which the first two are learned."""
@@ -126,6 +135,7 @@ class Tracker:
                 "appear_rate": rates.appear, "lived_scans": rates.lived_scans}
 
     @property
+    @in_turn
     def learned_reflectors(self) -> np.ndarray:
         """(n, 4): from x, y to x, y of walls that are learned from what they show, m."""
         wall, found = ffi.new("struct rho_reflector *"), []
@@ -135,6 +145,7 @@ class Tracker:
         return np.array(found, "f4").reshape(-1, 4)
 
     @property
+    @in_turn
     def sensors(self) -> dict[int, dict[str, Any]]:
         """By sensor_id: factors on stated sigmas and the pd by ring of range, as learned."""
         tracker, found = self._pipeline.tracker, {}
@@ -146,7 +157,7 @@ class Tracker:
         return found
 
 
-class Maintainer:
+class Maintainer(Shared):
     """One track alone, from its first plot on, never dropped, as `rhotrack maintain` does it.
 
     Settings' gate says how it takes its plot: "best" keeps hypotheses, "hough" looks at measured
@@ -166,6 +177,7 @@ class Maintainer:
             must(lib.program_maintainers_new(self.settings.handle, tracks, input_estimation, seed,
                                          covariance)), lib.program_maintainers_free)
 
+    @in_turn
     def run(self, scans: Any, log_densities: Any = None) -> np.ndarray:
         """Takes scans in their order of time, each of the first track, the second, ... in turn;
         returns the track after each.
@@ -184,6 +196,7 @@ class Maintainer:
         """Takes one scan; returns the track at its time, no row before the first plot."""
         return self.run([scan])
 
+    @in_turn
     def predict(self, t_s: float) -> tuple[np.ndarray, np.ndarray]:
         """Moves to t_s; returns (n, 3) places in m where a beam should look, NaN before the first
         plot, and the tracks as predicted. The next scan may be of that time."""
@@ -192,11 +205,13 @@ class Maintainer:
         return places, _array(self._all.tracks)
 
     @property
+    @in_turn
     def hypotheses(self) -> np.ndarray:
         """(n,): how many each track has; 1 but for best."""
         return array_of(self._all.hypotheses, self._all.count, "u4")
 
     @property
+    @in_turn
     def refused(self) -> np.ndarray:
         """(n,): updates that the filter refused; the track coasted."""
         return array_of(self._all.refused, self._all.count, "u8")
@@ -207,7 +222,7 @@ def node_sent(context: Any, channel: Any, data: Any, size: int) -> None:
     ffi.from_handle(context).append((ffi.string(channel).decode(), bytes(ffi.buffer(data, size))))
 
 
-class Node:
+class Node(Shared):
     """The live tracker without a network: messages of sensors in, messages of tracks out.
 
     Messages are (channel, bytes), encoded as lcm_types/ has them: LCM's own generator makes their
@@ -234,24 +249,28 @@ class Node:
         """Steps all that waits."""
         return self._do(ffi.NULL, b"", 2**63 - 1)
 
+    @in_turn
     def status(self) -> list[tuple[str, bytes]]:
         """The messages RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_LEARNED and RHO_LIFE of now."""
         self._sent.clear()
         must(lib.program_node_send_status(self._node))
         return list(self._sent)
 
+    @in_turn
     def _do(self, channel: Any, data: bytes, now_us: int) -> list[tuple[str, bytes]]:
         self._sent.clear()
         must(lib.program_node_take_or_step(self._node, channel, data, len(data), now_us))
         return list(self._sent)
 
     @property
+    @in_turn
     def due_s(self) -> float:
         """When tick has something to do, seconds of the clock of now_s; infinity: never."""
         due_us = lib.program_node_due_us(self._node)
         return float("inf") if due_us == 2**63 - 1 else due_us / 1e6
 
     @property
+    @in_turn
     def tracks(self) -> np.ndarray:
         """The tracks of the last step, as Tracker gives them."""
         must(lib.program_node_get_tracks(self._node, self._tracks))
