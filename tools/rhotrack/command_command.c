@@ -9,6 +9,7 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 #include "commands.h"
+#include "live/command_words.h"
 #include "rhotrack/command.h"
 #include "rhotrack/message.h"
 #include "transport/transport.h"
@@ -17,36 +18,20 @@
 #define SIGMA_M 100.0f
 #define WAIT_S 15.0
 
-static const struct action {
-    const char *name;
-    int8_t action;
-    int num_numbers;  /* track identities that follow the action's name */
-    const char *keys; /* keys that the action requires; `more`: keys that it also accepts */
-    const char *more;
-} actions[] = {
-    {"start", RHO_MESSAGE_COMMAND_START, 0, "x_m y_m", "sigma_m vx_mps vy_mps sigma_mps"},
-    {"drop", RHO_MESSAGE_COMMAND_DROP, 1, "", ""},
-    {"renumber", RHO_MESSAGE_COMMAND_RENUMBER, 2, "", ""},
-    {"freeze", RHO_MESSAGE_COMMAND_FREEZE, 1, "", ""},
-    {"thaw", RHO_MESSAGE_COMMAND_THAW, 1, "", ""},
-    {"exclude", RHO_MESSAGE_COMMAND_EXCLUDE, 0, "x_m y_m x_max_m y_max_m", ""},
-    {"include", RHO_MESSAGE_COMMAND_INCLUDE, 0, "x_m y_m", ""},
-};
-
-enum { NUM_ACTIONS = sizeof actions / sizeof *actions };
-
 static const char *action_name_at(size_t index)
 {
-    return index < NUM_ACTIONS ? actions[index].name : index == NUM_ACTIONS ? "set" : NULL;
+    return index < COMMAND_ACTIONS    ? command_actions[index].name
+           : index == COMMAND_ACTIONS ? "set"
+                                      : NULL;
 }
 
-static const struct action *must_find_action(const char *name)
+static const struct command_action *must_find_action(const char *name)
 {
     const char *hint;
 
-    for (size_t i = 0; i < NUM_ACTIONS; i++) {
-        if (strcmp(actions[i].name, name) == 0) {
-            return &actions[i];
+    for (size_t i = 0; i < COMMAND_ACTIONS; i++) {
+        if (strcmp(command_actions[i].name, name) == 0) {
+            return &command_actions[i];
         }
     }
     hint = name_hint_nearest(name, action_name_at);
@@ -78,25 +63,6 @@ static bool list_has_word(const char *list, const char *word, size_t length)
     return false;
 }
 
-static float *find_command_field(struct rho_message_command *command, const char *key,
-                                 size_t length)
-{
-    const struct {
-        const char *name;
-        float *value;
-    } fields[] = {{"x_m", &command->x_m},         {"y_m", &command->y_m},
-                  {"x_max_m", &command->x_max_m}, {"y_max_m", &command->y_max_m},
-                  {"sigma_m", &command->sigma_m}, {"sigma_mps", &command->sigma_mps},
-                  {"vx_mps", &command->vx_mps},   {"vy_mps", &command->vy_mps}};
-
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-        if (strlen(fields[i].name) == length && strncmp(fields[i].name, key, length) == 0) {
-            return fields[i].value;
-        }
-    }
-    return NULL;
-}
-
 static bool is_key_given(char **arguments, int num_arguments, const char *key, size_t length)
 {
     for (int i = 0; i < num_arguments; i++) {
@@ -107,11 +73,11 @@ static bool is_key_given(char **arguments, int num_arguments, const char *key, s
     return false;
 }
 
-static void parse_key_value(const struct action *action, const char *text,
+static void parse_key_value(const struct command_action *action, const char *text,
                             struct rho_message_command *command)
 {
     const size_t length = strcspn(text, "=");
-    float *field = find_command_field(command, text, length);
+    float *field = command_words_member(command, text, length);
     char *end;
 
     if (text[length] != '=' || !field ||
@@ -142,7 +108,7 @@ static void check_area_corners(const struct rho_message_command *command)
 
 static struct rho_message_command parse_command(char **arguments, int num_arguments)
 {
-    const struct action *action = must_find_action(arguments[0]);
+    const struct command_action *action = must_find_action(arguments[0]);
     struct rho_message_command command = {.action = action->action};
     struct rho_message_place place = {0};
 
@@ -217,27 +183,15 @@ static void print_setting_answer_or_fail(const struct rho_message_setting_answer
                                        "from the next step on; the initiation window begins anew",
                                        "with the next scan of each sensor that has no own value",
                                        "with the next plots that say no noise of their own"};
-    const char *name = rho_command_setting_name(answer->field),
-               *fault = rho_command_setting_name(answer->fault_field);
+    char why[COMMAND_REASON_BYTES];
 
     if (answer->status == RHO_OK) {
-        printf("done: %s %g, %s\n", name, (double)answer->value, when[answer->applies]);
+        printf("done: %s %g, %s\n", rho_command_setting_name(answer->field), (double)answer->value,
+               when[answer->applies]);
         return;
     }
-    if (fault) {
-        fail(EXIT_RUNTIME, "refused: %s %g is not within %g .. %g", fault, (double)answer->value,
-             (double)answer->min, (double)answer->max);
-    }
-    switch (answer->status) {
-    case RHO_ERROR_VALUE:
-        fail(EXIT_RUNTIME, "refused: %s is a whole number", name);
-    case RHO_ERROR_CONFIG:
-        fail(EXIT_RUNTIME, "refused: a sensor's own range_min_m or range_max_m forbids it");
-    case RHO_ERROR_STATE:
-        fail(EXIT_RUNTIME, "refused: the node has made no step");
-    default:
-        fail(EXIT_RUNTIME, "refused: %s", rho_status_name((enum rho_status)answer->status));
-    }
+    command_words_setting_refusal(answer, why);
+    fail(EXIT_RUNTIME, "refused: %s", why);
 }
 
 /* The answer to a setting where is_setting, else the answer to a command. */
@@ -287,20 +241,6 @@ static bool await_answer(struct transport *transport, int32_t number, int64_t en
     return false;
 }
 
-static const char *command_refusal_reason(int8_t status)
-{
-    switch (status) {
-    case RHO_ERROR_VALUE:
-        return "no such track or place, or an identity that is taken";
-    case RHO_ERROR_STATE:
-        return "the track is tentative, or the node has made no step";
-    case RHO_ERROR_CAPACITY:
-        return "there is no room";
-    default:
-        return rho_status_name((enum rho_status)status);
-    }
-}
-
 /* Sends a command or setting and waits for the node's answer; exit 1 where none comes in wait_s. */
 static void send_and_await_answer_or_fail(struct transport *transport, const char *channel,
                                           const uint8_t *data, size_t size, int32_t number,
@@ -318,7 +258,7 @@ static void send_and_await_answer_or_fail(struct transport *transport, const cha
 static void print_command_answer_or_fail(const struct rho_message_command_answer *answer)
 {
     if (answer->status != RHO_OK) {
-        fail(EXIT_RUNTIME, "refused: %s", command_refusal_reason(answer->status));
+        fail(EXIT_RUNTIME, "refused: %s", command_words_refusal(answer->status));
     }
     if (answer->track_id > 0) {
         printf("done: track %" PRId32 "\n", answer->track_id);
