@@ -8,6 +8,7 @@
 
 #include "base/common.h"
 #include "live/refused_messages.h"
+#include "live/restored_commands.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
@@ -70,7 +71,20 @@ uint64_t node_core_num_show_left_out(const struct node_core *core)
 
 enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const char *path)
 {
-    return pipeline_restore_snapshot(&core->pipeline, core->parameters, path);
+    struct parameters *told = must_alloc(sizeof *told);
+    enum pipeline_restored restored;
+
+    *told = *core->parameters;
+    restored = pipeline_restore_snapshot(&core->pipeline, core->parameters, path);
+    if (restored == PIPELINE_RESTORED &&
+        restored_commands_print(core->pipeline.node, path, stderr) > 0 &&
+        !core->pipeline.takes_commands) {
+        *core->parameters = *told;
+        pipeline_reconfigure(&core->pipeline, told);
+        restored_commands_undo(&core->pipeline.node->tracker, told);
+    }
+    free(told);
+    return restored;
 }
 
 bool node_core_save_snapshot(struct node_core *core, const char *path)
@@ -438,6 +452,11 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id)
 int node_core_sensor_scans_min(const struct node_core *core)
 {
     return (int)core->pipeline.node->assembler.config.follow_scans;
+}
+
+const struct rho_settings *node_core_settings(const struct node_core *core)
+{
+    return &core->pipeline.node->settings;
 }
 
 const struct rho_report *node_core_last_report(const struct node_core *core)

@@ -52,7 +52,10 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
 /* Sends the messages of --show after each step from now on; the core owns `show`. NULL: none. */
 void node_core_set_show(struct node_core *core, struct pipeline_show *show);
 
-/* Accepts an operator's messages on RHO_COMMANDS and RHO_SETTINGS from now on. */
+/*
+ * Accepts an operator's messages on RHO_COMMANDS and RHO_SETTINGS from now on; before a snapshot is
+ * restored.
+ */
 void node_core_allow_commands(struct node_core *core);
 
 /* Messages of --show that its rate limits left out. */
@@ -61,7 +64,8 @@ uint64_t node_core_num_show_left_out(const struct node_core *core);
 /*
  * Restores tracks and learned values from a snapshot file; before the first message. If the first
  * scan is more than jump_max_s older than the snapshot, the sensors' clock has changed, and all
- * tracks are dropped.
+ * tracks are dropped. Areas, settings and frozen tracks of an operator are named on standard error;
+ * a node that accepts no commands goes on without them.
  */
 enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const char *path);
 
@@ -93,6 +97,9 @@ struct node_core_losses {
  * RHO_ZONES.
  */
 void node_core_send_status(struct node_core *core, const struct node_core_losses *losses);
+
+/* settings in force, as configured and then changed by an operator */
+const struct rho_settings *node_core_settings(const struct node_core *core);
 
 /* report of the last step */
 const struct rho_report *node_core_last_report(const struct node_core *core);
