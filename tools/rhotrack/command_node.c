@@ -18,6 +18,7 @@
 #include "commands.h"
 #include "io/output/clutter_map_file.h"
 #include "io/scans/scan_interval_hint.h"
+#include "live/command_gate.h"
 #include "live/duplicate_senders.h"
 #include "live/metrics_page_server.h"
 #include "live/node_core.h"
@@ -70,6 +71,7 @@ struct node {
     struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
     struct duplicate_senders senders;
+    struct command_gate gate;
     struct service service;
     int64_t start_us;                /* monotonic time of the start */
     bool is_silence_told;            /* a line says that no message was heard since the start */
@@ -200,6 +202,8 @@ static void send_and_log_message(void *context, const char *channel, const uint8
 {
     struct node *node = context;
 
+    command_gate_note_answer(&node->gate, channel, data, size,
+                             node->print.is_terminal ? NULL : stderr);
     /* failures are counted by the transport */
     (void)transport_send(node->transport, channel, data, size);
     if (node->log) {
@@ -319,7 +323,7 @@ static void attribute_losses_to_sensor(struct node *node, const char *channel)
     int16_t sensor_id = 0;
     const bool has_sensor = duplicate_senders_sensor_id(channel, &sensor_id);
 
-    node_loss_counts_collect(node->core, node->transport, tallies);
+    node_loss_counts_collect(node->core, node->transport, &node->gate, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         struct warning *warning = &node->warnings[i];
 
@@ -340,7 +344,7 @@ static void warn_of_losses(struct node *node)
     if (node->print.is_terminal) {
         return;
     }
-    node_loss_counts_collect(node->core, node->transport, tallies);
+    node_loss_counts_collect(node->core, node->transport, &node->gate, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         warn_when_tally_rose(&node->warnings[i], &tallies[i], now_us);
     }
@@ -381,7 +385,7 @@ static void print_summary(const struct node *node)
             node_core_max_step_us(node->core));
     node_core_print_learned(node->core, stderr);
     fprintf(stderr, "\n");
-    node_loss_counts_collect(node->core, node->transport, tallies);
+    node_loss_counts_collect(node->core, node->transport, &node->gate, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].count) {
             fprintf(stderr, "rhotrack: %s: %" PRIu64 "\n", tallies[i].name, tallies[i].count);
@@ -567,8 +571,9 @@ static void update_scan_interval_hint(struct node *node, const struct transport_
 }
 
 /*
- * Passes a received message to the core. The log gets channels that begin with RHO_; messages that
- * the node published are already logged where they were sent.
+ * Passes a received message to the core. The log gets channels that begin with RHO_, without
+ * commands that are refused here, as a replay would do them; messages that the node published are
+ * already logged where they were sent.
  */
 static void pass_message_to_core_and_log(struct node *node, const struct transport_message *message)
 {
@@ -579,6 +584,10 @@ static void pass_message_to_core_and_log(struct node *node, const struct transpo
     }
     error_lines_set_time(message->received_us);
     node->taken++;
+    if (!command_gate_admits(&node->gate, message, node_core_settings(node->core),
+                             node->print.is_terminal ? NULL : stderr)) {
+        return;
+    }
     update_scan_interval_hint(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
         log_message(node, message->received_us, message->channel, message->data, message->size);
@@ -625,6 +634,7 @@ static void write_metrics(FILE *out, void *context)
     const struct prometheus_metrics_source source = {
         .core = node->core,
         .transport = node->transport,
+        .gate = &node->gate,
         .parameters = node->parameters,
         .messages_in = node->taken,
         .losses = collect_losses(node),
@@ -746,6 +756,7 @@ int command_node(struct command_line *line)
     if (line->log && transport_url_is_same_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would overwrite the input", line->log);
     }
+    node.gate = command_gate_open(line->commands, line->commanders, line->lcm);
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
     check_state_files(line);
@@ -753,7 +764,7 @@ int command_node(struct command_line *line)
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
     error_lines_stamp_stderr(&line->parameters, is_live);
     node_core_set_show(node.core, show);
-    if (line->commands) {
+    if (node.gate.is_open) {
         node_core_allow_commands(node.core);
     }
     node.start_us = node.status_us;

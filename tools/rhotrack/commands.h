@@ -31,6 +31,7 @@ struct command_line {
     double seconds;           /* --for; 0 where not given */
     bool print, loop;         /* --print, --loop */
     bool commands;            /* --commands */
+    const char *commanders;   /* --commands-from; NULL where not given */
     uint16_t metrics;         /* --metrics, a port; 0 where not given */
     uint64_t seed;            /* --seed; default 1 */
     long runs;                /* --runs; 0 where not given */

@@ -121,7 +121,7 @@ static const struct command commands[] = {
      "where OUT ends with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLRTAEmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
+     "lpLRTAFEmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n> and\n"
      "RHO_DIRECTIONS_<n>, and publishes RHO_TRACKS and RHO_PEAKS at each scan, with body_max_m\n"
      "RHO_BODIES, and once a second RHO_STATUS, RHO_WORK and RHO_SENSORS,\n"
@@ -133,7 +133,12 @@ static const struct command commands[] = {
      "RHO_HYPOTHESES, at most 50 messages of a kind a second. Sensors that contradict the others "
      "or fall\n"
      "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
-     "With --commands it does what `rhotrack command` asks for after the next step.\n"
+     "With --commands it does what `rhotrack command` asks for after the next step, ten a second "
+     "at\n"
+     "most, and names each with its sender; --commands-from does so for some senders alone.\n"
+     "Areas, settings and frozen tracks of earlier commands in the snapshot are named, and "
+     "without\n"
+     "--commands left out.\n"
      "A log goes into files of log_file_mb or log_file_s, of which the newest log_files stay; "
      "SIGHUP\n"
      "opens its name anew. --metrics tells counters and times to programs of this machine.\n"
@@ -184,7 +189,8 @@ static const struct command commands[] = {
      "                             min_scans coast_scans_max false_tracks_per_hour work_max\n"
      "                             standing (0: clutter, 1: targets)\n"
      "\n"
-     "Nothing proves who sent a command: sources_allowed of --lcm limits the addresses.\n"},
+     "Nothing proves who sent a command: a node's --commands-from limits the addresses, and\n"
+     "sources_allowed of --lcm those of all messages. Beyond ten a second it gives no answer.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",
      "every parameter with unit, default and range",
      "Prints each parameter's unit, default, range, and its value now with where it came from; "

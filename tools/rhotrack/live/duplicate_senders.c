@@ -17,12 +17,6 @@ static bool is_same_sender(const struct transport_sender *one, const struct tran
     return one->address == other->address && one->port == other->port;
 }
 
-static void print_sender(const struct transport_sender *sender, FILE *to)
-{
-    fprintf(to, "%u.%u.%u.%u:%u", sender->address >> 24, sender->address >> 16 & 255u,
-            sender->address >> 8 & 255u, sender->address & 255u, (unsigned)sender->port);
-}
-
 /* ---- Sensors ---- */
 
 /*
@@ -152,9 +146,9 @@ static void print_sender_warning(struct duplicate_senders *senders,
 {
     senders->lines++;
     fprintf(to, "rhotrack: sensor %s has %s", strrchr(channel->name, '_') + 1, what);
-    print_sender(one, to);
+    transport_print_sender(one, to);
     fputs(between, to);
-    print_sender(other, to);
+    transport_print_sender(other, to);
     fputs(end, to);
 }
 
@@ -206,7 +200,7 @@ static void note_node_message(struct duplicate_senders *senders,
     if (to) {
         senders->lines++;
         fputs("rhotrack: another node publishes tracks here: ", to);
-        print_sender(sender, to);
+        transport_print_sender(sender, to);
         fputs("\n", to);
     }
 }

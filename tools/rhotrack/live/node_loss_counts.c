@@ -3,11 +3,12 @@
 
 #include <string.h>
 
-#define MESSAGE_TALLIES 13
+#define MESSAGE_TALLIES 15
 #define STEP_TALLIES (NODE_TALLIES - MESSAGE_TALLIES)
 
 /* Collects losses by the network, of messages, and of operators' commands. */
 static void collect_tallies(const struct node_core *core, const struct transport *transport,
+                            const struct command_gate *gate,
                             struct node_loss_counts tallies[MESSAGE_TALLIES])
 {
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
@@ -30,6 +31,9 @@ static void collect_tallies(const struct node_core *core, const struct transport
         {"messages of too many sensors", assembler->sensors_no_room, NODE_TALLY_FAULT, true},
         {"commands not taken: the node runs without --commands", own->commands_not_allowed,
          NODE_TALLY_FAULT, false},
+        {"commands of addresses that are not in --commands-from", gate->from.refused_source,
+         NODE_TALLY_FAULT, false},
+        {"commands beyond the rate that is taken", gate->beyond, NODE_TALLY_FAULT, false},
         {"commands bad", own->commands_bad, NODE_TALLY_FAULT, false},
         {"commands refused", own->commands_refused, NODE_TALLY_FAULT, false},
         {"commands done", own->commands_done, NODE_TALLY_USUAL, false},
@@ -82,8 +86,9 @@ static void collect_scan_and_plot_tallies(const struct node_core *core,
 }
 
 void node_loss_counts_collect(const struct node_core *core, const struct transport *transport,
+                              const struct command_gate *gate,
                               struct node_loss_counts tallies[NODE_TALLIES])
 {
-    collect_tallies(core, transport, tallies);
+    collect_tallies(core, transport, gate, tallies);
     collect_scan_and_plot_tallies(core, tallies + MESSAGE_TALLIES);
 }

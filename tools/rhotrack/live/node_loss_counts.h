@@ -9,10 +9,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "live/command_gate.h"
 #include "live/node_core.h"
 #include "transport/transport.h"
 
-#define NODE_TALLIES 36
+#define NODE_TALLIES 38
 
 enum node_tally_kind {
     NODE_TALLY_USUAL = 0, /* counts events of normal operation; no warning */
@@ -30,6 +31,7 @@ struct node_loss_counts {
 
 /* Collects all tallies, always in the same order. */
 void node_loss_counts_collect(const struct node_core *core, const struct transport *transport,
+                              const struct command_gate *gate,
                               struct node_loss_counts tallies[NODE_TALLIES]);
 
 #endif

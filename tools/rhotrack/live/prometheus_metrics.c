@@ -59,7 +59,7 @@ static void write_loss_tallies(FILE *out, const struct prometheus_metrics_source
 {
     struct node_loss_counts tallies[NODE_TALLIES];
 
-    node_loss_counts_collect(source->core, source->transport, tallies);
+    node_loss_counts_collect(source->core, source->transport, source->gate, tallies);
     write_family_head(out, "refused_total", "counter", "Refused or lost, by cause: faults.");
     write_tallies_of_kind(out, "refused_total", tallies, NODE_TALLY_FAULT);
     write_family_head(out, "missing", "gauge",

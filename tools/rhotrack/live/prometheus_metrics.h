@@ -9,6 +9,7 @@
 
 #include <stdio.h>
 
+#include "live/command_gate.h"
 #include "live/node_core.h"
 #include "settings/parameters.h"
 #include "transport/transport.h"
@@ -17,6 +18,7 @@
 struct prometheus_metrics_source {
     const struct node_core *core;
     const struct transport *transport;
+    const struct command_gate *gate;
     const struct parameters *parameters; /* parameters at the start: names of sensors */
     uint64_t messages_in;                /* messages received, without those that nodes publish */
     struct node_core_losses losses;      /* losses of the node's inputs and outputs */

@@ -36,6 +36,17 @@ bool transport_url_is_live(const char *url)
     return strncmp(url_or_default(url), "file://", 7) != 0;
 }
 
+bool transport_url_tells_senders(const char *url)
+{
+    return strncmp(url_or_default(url), "udpm://", 7) == 0;
+}
+
+void transport_print_sender(const struct transport_sender *sender, FILE *to)
+{
+    fprintf(to, "%u.%u.%u.%u:%u", sender->address >> 24, sender->address >> 16 & 255u,
+            sender->address >> 8 & 255u, sender->address & 255u, (unsigned)sender->port);
+}
+
 struct transport *transport_open(const char *url, enum transport_use use)
 {
     struct transport *transport = must_calloc(1, sizeof *transport);
@@ -47,7 +58,7 @@ struct transport *transport_open(const char *url, enum transport_use use)
     if (!strstr(url, "://")) {
         transport_refuse(transport, "not an LCM URL, which looks like %s", TRANSPORT_DEFAULT_URL);
     }
-    if (strncmp(url, "udpm://", 7) == 0) {
+    if (transport_url_tells_senders(url)) {
         transport_open_udpm(transport, use);
     } else {
         transport_open_lcm_or_log(transport, use);

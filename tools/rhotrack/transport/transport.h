@@ -72,6 +72,12 @@ bool transport_url_is_same_file(const char *url, const char *path);
  */
 bool transport_url_is_live(const char *url);
 
+/* True where messages of the URL (NULL: the default one) come with their sender's address. */
+bool transport_url_tells_senders(const char *url);
+
+/* Prints an address and port as 10.9.0.1:5001. */
+void transport_print_sender(const struct transport_sender *sender, FILE *to);
+
 const char *transport_url(const struct transport *transport);
 
 /*

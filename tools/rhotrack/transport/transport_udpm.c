@@ -15,6 +15,7 @@
 
 #include "base/common.h"
 #include "rhotrack/udpm.h"
+#include "transport/address_list.h"
 #include "transport/network_watch.h"
 #include "transport/transport_provider_interface.h"
 
@@ -82,30 +83,10 @@ static long parse_url_number(const struct transport *transport, const char *name
     return number;
 }
 
-static void parse_allowed_sources(const struct transport *transport, struct rho_udpm_guard *guard,
-                                  char *text)
-{
-    char *rest = NULL;
-    struct in_addr address;
-
-    for (char *word = strtok_r(text, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
-        if (inet_pton(AF_INET, word, &address) != 1) {
-            transport_refuse(transport, "sources_allowed: '%s' is not an IPv4 address", word);
-        }
-        if (guard->num_sources == RHO_UDPM_MAX_SOURCES) {
-            transport_refuse(transport, "sources_allowed: more than %d addresses",
-                             RHO_UDPM_MAX_SOURCES);
-        }
-        guard->sources[guard->num_sources++] = ntohl(address.s_addr);
-    }
-    if (guard->num_sources == 0) {
-        transport_refuse(transport, "sources_allowed has no address");
-    }
-}
-
 static void parse_url_option(struct transport *transport, struct udpm *udpm, char *option)
 {
     char *value = strchr(option, '=');
+    char reason[ADDRESS_LIST_REASON_BYTES];
 
     if (!value) {
         transport_refuse(transport, "option '%s' has no value", option);
@@ -116,7 +97,9 @@ static void parse_url_option(struct transport *transport, struct udpm *udpm, cha
     } else if (strcmp(option, "recv_buf_size") == 0) {
         udpm->wanted_bytes = (int)parse_url_number(transport, option, value, 2048, 1 << 30);
     } else if (strcmp(option, "sources_allowed") == 0) {
-        parse_allowed_sources(transport, &udpm->guard, value);
+        if (!address_list_parse(option, value, &udpm->guard, reason)) {
+            transport_refuse(transport, "%s", reason);
+        }
     } else {
         transport_refuse(transport,
                          "unknown option '%s'; there are ttl, recv_buf_size and sources_allowed",
