@@ -79,11 +79,16 @@ start --commands
 publisher=$!
 run command set work_max 5000
 check 'work_max is set' exits 0
+run command exclude x_m=8000 y_m=8000 x_max_m=9000 y_max_m=9000
+check 'an area is excluded' exits 0
 sleep 0.2 # a page is sent again as it is for 100 ms
-check 'and the text has it' test "$(python3 -c "
-import re, urllib.request
-text = urllib.request.urlopen('http://127.0.0.1:$port/metrics').read().decode()
-print(re.search('^rhotrack_step_work_max (.*)', text, re.M)[1])")" = 5000
+python3 -c "
+import urllib.request
+print(urllib.request.urlopen('http://127.0.0.1:$port/metrics').read().decode())" >text
+check 'and the text has it' grep -q '^rhotrack_step_work_max 5000$' text
+check 'beside the configured value' grep -q '^rhotrack_setting{name="work_max"} 5000$' text
+check 'which stays' grep -Eq '^rhotrack_setting_configured\{name="work_max"\} [0-9]{5,}$' text
+check 'and the area' grep -q '^rhotrack_excluded_areas 1$' text
 kill "$publisher"
 stop
 

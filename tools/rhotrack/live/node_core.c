@@ -459,6 +459,11 @@ const struct rho_settings *node_core_settings(const struct node_core *core)
     return &core->pipeline.node->settings;
 }
 
+const struct rho_settings *node_core_told_settings(const struct node_core *core)
+{
+    return &core->pipeline.node->told;
+}
+
 const struct rho_report *node_core_last_report(const struct node_core *core)
 {
     return &core->pipeline.node->report;

@@ -98,8 +98,9 @@ struct node_core_losses {
  */
 void node_core_send_status(struct node_core *core, const struct node_core_losses *losses);
 
-/* settings in force, as configured and then changed by an operator */
+/* settings in force, as configured and then changed by an operator; and as configured */
 const struct rho_settings *node_core_settings(const struct node_core *core);
+const struct rho_settings *node_core_told_settings(const struct node_core *core);
 
 /* report of the last step */
 const struct rho_report *node_core_last_report(const struct node_core *core);

@@ -6,8 +6,10 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "live/command_words.h"
 #include "live/node_loss_counts.h"
 #include "pipeline/learned_report.h"
+#include "rhotrack/command.h"
 
 static void write_family_head(FILE *out, const char *name, const char *type, const char *help)
 {
@@ -217,6 +219,31 @@ static void write_times_and_work(FILE *out, const struct prometheus_metrics_sour
                   tracker->work.plots_not_tried);
 }
 
+/* ---- An operator's commands that are in force ---- */
+
+static void write_settings(FILE *out, const char *name, const char *help,
+                           const struct rho_settings *settings)
+{
+    float values[COMMAND_SETTINGS + 1];
+
+    command_words_setting_values(settings, values);
+    write_family_head(out, name, "gauge", help);
+    for (int field = 1; field <= COMMAND_SETTINGS; field++) {
+        fprintf(out, "rhotrack_%s{name=\"%s\"} %.7g\n", name, rho_command_setting_name(field),
+                (double)values[field]);
+    }
+}
+
+static void write_commands_in_force(FILE *out, const struct prometheus_metrics_source *source)
+{
+    write_single_value(out, "excluded_areas", "gauge", "Areas that an operator has excluded.",
+                       node_core_tracker_state(source->core)->num_excluded);
+    write_settings(out, "setting", "Settings in force, which an operator may change.",
+                   node_core_settings(source->core));
+    write_settings(out, "setting_configured", "The same settings as they are configured.",
+                   node_core_told_settings(source->core));
+}
+
 /* ---- Sensors ---- */
 
 /* Writes a sensor's labels: sensor="1",name="north". */
@@ -398,6 +425,7 @@ void prometheus_metrics_write(FILE *out, const struct prometheus_metrics_source 
     write_tracker_counters(out, source);
     write_track_counts(out, source);
     write_times_and_work(out, source);
+    write_commands_in_force(out, source);
     write_sensor_states(out, source);
     write_learned(out, source);
     write_life(out, source);
