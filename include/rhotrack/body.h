@@ -94,9 +94,8 @@ struct rho_body {
 /*
  * Sets the length of the longest body: targets may then give several plots a scan. 0: targets are
  * points, as after rho_tracker_init. Applies from the next step on. Plots of a scan beyond
- * RHO_MAX_PLOTS are NO_ROOM then.
- * Errors: NULL, STATE (not initialised), VALUE (not 0 .. RHO_LIMIT_BODY_M), CAPACITY (other than 0
- * without RHO_BODIES). Constant cost.
+ * RHO_MAX_PLOTS are NO_ROOM then. Errors: NULL, STATE (not initialised), VALUE (not 0 ..
+ * RHO_LIMIT_BODY_M), CAPACITY (other than 0 without RHO_BODIES). Constant cost.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker,
                                                         float length_max_m);

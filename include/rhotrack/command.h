@@ -40,11 +40,10 @@ RHO_MUST_CHECK enum rho_status rho_command_run(const struct rho_message_command 
 /*
  * Changes one of the settings that the caller keeps, and fills the answer but for utime, scan and
  * epoch, which are 0. Where it is changed the caller applies the settings to tracker, initiators
- * and descriptions of sensors (settings.h); the answer says when that takes effect.
- * Errors: NULL, VALUE (no such field, no number, or a fraction where a whole number is wanted),
- * CONFIG (this or another field would be outside its range: the answer's fault_field, value, min
- * and max), which are the answer's status, too; the settings are unchanged. Constant cost. Stack:
- * 440 bytes.
+ * and descriptions of sensors (settings.h); the answer says when that takes effect. Errors: NULL,
+ * VALUE (no such field, no number, or a fraction where a whole number is wanted), CONFIG (this or
+ * another field would be outside its range: the answer's fault_field, value, min and max), which
+ * are the answer's status, too; the settings are unchanged. Constant cost. Stack: 440 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_command_set(const struct rho_message_setting *setting,
                                                struct rho_settings *settings,

@@ -491,6 +491,6 @@ RHO_CONFIG_RANGE(RHO_MAX_PARTS, 1, 32767);
      168 * RHO_BODY_TRACKS + 640)
 #define RHO_RAM_SCAN_ASSEMBLER_BYTES                                                               \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 24 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
-     272 * RHO_MAX_SENSORS + 528)
+     280 * RHO_MAX_SENSORS + 528)
 
 #endif

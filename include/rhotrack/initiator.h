@@ -231,8 +231,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initia
 
 /*
  * As rho_initiator_search, with work_max instead of the configuration's: the work that a step has
- * left.
- * Stack: 3.3 KB (embedded profile).
+ * left. Stack: 3.3 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search_within(struct rho_initiator *initiator,
                                                            enum rho_search kind, uint32_t work_max);

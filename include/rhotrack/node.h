@@ -258,10 +258,9 @@ RHO_MUST_CHECK enum rho_status rho_node_init(struct rho_node *node, size_t size,
 
 /*
  * Gives the parts of an initialised node other configurations; all of them begin anew, but zones,
- * storage and the node's counters stay. Commands that wait are dropped.
- * Errors: NULL, STATE (not initialised), CONFIG (a value that a part refuses, or a part that the
- * build does not have): the node is then to be initialised again. Cost: that of rho_node_init.
- * Stack: 800 bytes.
+ * storage and the node's counters stay. Commands that wait are dropped. Errors: NULL, STATE (not
+ * initialised), CONFIG (a value that a part refuses, or a part that the build does not have): the
+ * node is then to be initialised again. Cost: that of rho_node_init. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_node_configure(struct rho_node *node,
                                                   const struct rho_node_config *config);
@@ -343,10 +342,9 @@ int64_t rho_node_due_us(const struct rho_node *node);
 
 /*
  * Steps a scan of plots or bearings by the same chain. The tracker is to know its sensor
- * (rho_tracker_set_sensor). Any two radars may share a window.
- * Errors: NULL, STATE (not initialised), TYPE (the build has no such scans), and those of
- * rho_tracker_step and rho_paper_starts_step; after the latter the step was made.
- * Stack: 4.8 KB.
+ * (rho_tracker_set_sensor). Any two radars may share a window. Errors: NULL, STATE (not
+ * initialised), TYPE (the build has no such scans), and those of rho_tracker_step and
+ * rho_paper_starts_step; after the latter the step was made. Stack: 4.8 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_step_scan(struct rho_node *node,
                                                   const struct rho_scan *scan);

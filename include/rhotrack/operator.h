@@ -45,10 +45,9 @@ struct rho_operator_start {
  * confirmed at once, or tentative where many objects are seldom seen (tracker.h), and ends as
  * others do where no plots follow. It counts as a target's, though it may never move: until it
  * ends, echoes of the clutter map where it is are no clutter, and it may be slower than v_min. A
- * full tracker gives up the tentative track that most probably has no target.
- * Errors: NULL, STATE (not initialised, no step so far, the report is not the last step's), VALUE
- * (a number outside its range), CAPACITY (no room), and those of rho_track_start. Cost: the report.
- * Stack: 3.1 KB.
+ * full tracker gives up the tentative track that most probably has no target. Errors: NULL, STATE
+ * (not initialised, no step so far, the report is not the last step's), VALUE (a number outside its
+ * range), CAPACITY (no room), and those of rho_track_start. Cost: the report. Stack: 3.1 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
                                                     const struct rho_operator_start *start,
@@ -77,9 +76,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_renumber_track(struct rho_tracker *tr
  * no plots, has no misses and does not end, until it is thawed or dropped. So it passes clutter, a
  * jammer or a crossing that would lead it away. Others may start from its plots. With input
  * estimation it keeps its inputs. A thawed track goes on from where it would be, with an
- * uncertainty that has grown meanwhile.
- * Errors: NULL, CONFIG (RHO_MAX_EXCLUDED_AREAS is 0), STATE (as above, or the track is tentative),
- * VALUE (no such track). Cost: the report. Stack: 1.6 KB.
+ * uncertainty that has grown meanwhile. Errors: NULL, CONFIG (RHO_MAX_EXCLUDED_AREAS is 0), STATE
+ * (as above, or the track is tentative), VALUE (no such track). Cost: the report. Stack: 1.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker,
                                                         uint32_t track_id, int is_frozen,

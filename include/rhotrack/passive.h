@@ -213,10 +213,9 @@ uint32_t rho_passive_give(struct rho_passive *passive, const struct rho_passive_
 
 /*
  * Searches the batch for tracks, from bearings without an owner. Results: passive->tracks[0 ..
- * num_tracks - 1].
- * Errors: NULL, STATE (not initialised). Fewer than 3 rows, or one sensor: RHO_OK and no track.
- * Cost: work_max, fits of known tracks, and the choice among candidates. Stack: 3.5 KB (embedded
- * profile).
+ * num_tracks - 1]. Errors: NULL, STATE (not initialised). Fewer than 3 rows, or one sensor: RHO_OK
+ * and no track. Cost: work_max, fits of known tracks, and the choice among candidates. Stack: 3.5
+ * KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 

@@ -14,44 +14,40 @@
  *     }
  *
  * LCM does not say who sent a message, so no sender is trusted. The effect of a message is bounded,
- * and one sensor that fails or lies leaves the scans of the others as they are. A sender that uses
- * another sensor's number can do harm to that sensor.
+ * and one sensor that fails or lies leaves the scans of others as they are, unless it uses their
+ * numbers.
  *
  * Parts      A scan is complete when all its parts are here. It goes out incomplete, and is
  *            counted, when a newer scan of its sensor begins, when hold_us has passed since its
  *            last part, or when a later scan of another sensor has been held that long (unless
- *            hold_us is 0). Plots are in the order of the parts. The part that comes first counts:
- *            parts that contradict it are refused.
- * Order      A complete scan waits until every other live sensor has sent one that is not older,
- *            hold_us at most: scans of different sensors go out in the order of time. A scan behind
- *            a skipped number waits for that number, not for those before it, hold_us at most, too;
- *            so does a scan that comes less than an interval before it. A single sensor's scans
- *            wait for nothing else. A sensor is live for jump_max_us after its last scan.
+ *            hold_us is 0). Parts are in their order; those that contradict the first one to come
+ *            are refused.
+ * Order      Scans of different sensors go out in the order of time: a complete scan waits, hold_us
+ *            at most, until every other live sensor has sent one that is not older, and behind a
+ *            skipped number, or less than an interval before such a scan, for that number. A single
+ *            sensor's scans wait for nothing else. A sensor is live for jump_max_us after its last
+ *            scan.
  * Out of     A skipped number may come after all, behind newer ones. Where nothing newer has gone
  * sequence   out, its scan takes its place in the order of time. Otherwise it goes out behind the
  *            newer scans, late_max_us at most, for a tracker that takes out-of-sequence scans;
- *            late bearings are not taken. Such a scan does not move its sensor on. No
- *            other scan waits for it, except while its parts are coming or for the number before
- *            it. It only takes free room, for one scan of a sensor at a time while parts are
- *            missing, and gives way to every scan in sequence: then it is dropped.
+ *            late bearings are not taken. No other scan waits for it, except while its parts are
+ *            coming or for the number before it. It only takes free room, for one scan of a sensor
+ *            at a time while parts are missing, and is dropped for every scan in sequence.
  * Numbers    A scan is the next one of its sensor where its number is higher by 1 ..
- *            RHO_SCAN_ASSEMBLER_SKIP_MAX (numbers wrap), its time is later, and both fit: it took
- *            at most 3/2 of the time that its numbers usually take, or that the sensor was silent;
- *            and, where it skips numbers, at least 3/4 of the first. Skipped numbers are lost. A
- *            number that is 0 to 31 lower is a duplicate or out of sequence. An out-of-sequence
- *            scan is taken where its number was skipped and its time lies before the newest by 3/4
- *            to 3/2 of what its numbers usually take. Any other scan, and another epoch, is refused
- *            until follow_scans such scans agree with one another: the sensor has restarted, or has
- *            another interval. So one damaged or foreign message does not make the scans that
+ *            RHO_SCAN_ASSEMBLER_SKIP_MAX (numbers wrap) and its time is later, and fits what its
+ *            numbers usually take or its reception, within hold_us and a 64th of jump_max_us; where
+ *            it skips numbers, they took at least 3/4 of what they usually take, and are lost. A
+ *            number that is 0 to 31 lower is a duplicate or out of sequence: the latter where it
+ *            was skipped, and its time lies before the newest by 3/4 to 3/2 of what its numbers
+ *            usually take. Any other scan, and another epoch, is refused until follow_scans such
+ *            scans agree with one another: the sensor has restarted, has another interval, or its
+ *            clock has stepped. So one damaged or foreign message does not make the scans that
  *            follow it look old. Where RHO_MAX_SENSORS is above 1, so are duplicates in a row from
- *            the oldest remembered number on: the sensor sends them anew, as a record that is
- *            played again does. Where that sets the clock, the refused scans may come once more
- *            until the first one has gone out.
+ *            the oldest remembered number on, as of a record that is played again.
  * Newcomers  A newcomer is a sensor that was heard for less than half as long as another one that
- *            still sends and was heard for a minute. A sensor that is silent for three intervals
- *            (an eighth to half of jump_max_us) makes no other one a newcomer. Times count up to
- *            ten minutes, so a sensor is a newcomer for five at most. A single sensor is none, and
- *            there is none in the first minute, nor in a record (is_record).
+ *            still sends (heard within three intervals or an eighth of jump_max_us) and was heard
+ *            for a minute. Times count up to ten minutes, so a sensor is a newcomer for five at
+ *            most. There is none in a record (is_record).
  *            A newcomer has no vote on the clock. Its scan waits until an established sensor has
  *            sent one that is not older, or is by its own clock hold_us beyond that time; and until
  *            no part of an older scan of an established sensor is missing. It gives way to scans of
@@ -60,30 +56,27 @@
  *            share one scan between two of the others, because empty scans in a row would end
  *            tracks, and share stranger_plots_per_s: messages beyond that are dropped
  *            (messages_flooded). Their sigmas are not below those of `other`.
- * Allowed    Where `allowed` holds a sensor_id, messages of any other sensor are dropped.
- * Senders    The first part of a sensor's newest scan that comes again with other contents is
- *            counted (scans_other), and has_two_senders stays 1 in its source: two senders use its
- *            number. The scan that came first counts.
- * Clock      A scan is refused where most other live sensors say that its time is another one: more
- *            than an eighth of jump_max_us and hold_us, or two of their intervals, ahead of the
- *            time that follows from their last scans and the reception clock; or an eighth of
- *            jump_max_us and hold_us before their last scans. Beside a sensor that has sent one
- *            scan so far, jump_max_us counts instead of its eighth. A scan more than jump_max_us
- *            off the last accepted one is refused, too. So one wrong clock does not make the other
- *            sensors' scans out of sequence. When more sensors, without newcomers, agree on another
- *            time than on the present one, the assembler follows that time: is_restart tells, and
- *            tracks of earlier scans do not go on. Where as many sensors say the one as the other,
- *            the reception clock decides if it is near one of them alone, and else the sensor that
- *            came first. A sensor that restarts before the scans that went out, while no other one
- *            tells the time, sets it back. An established sensor's clock that is ahead by less
- *            makes the other sensors' scans out of sequence in the tracker for as long as it goes
- *            on.
+ * Senders    Where `allowed` holds a sensor_id, messages of any other sensor are dropped. The first
+ *            part of a sensor's newest scan that comes again with other contents is counted
+ *            (scans_other), and has_two_senders stays 1 in its source: two senders use its number.
+ * Clock      A sensor's clock goes on from its newest scan as the reception clock does, or at its
+ *            own pace where a record is played. A scan is refused where its time is more than
+ *            hold_us and an eighth of jump_max_us off the clocks of most other live sensors, either
+ *            way; or more than jump_max_us, beside a sensor that has sent one scan so far, and off
+ *            the last accepted scan. Of a scan that its network delays, its sensor's clock counts.
+ *            A sensor whose clock stepped must come nearer to the others than half of the step, and
+ *            one that was off within a 64th of jump_max_us. When more sensors, without newcomers,
+ *            agree on another time than on the present one, the assembler follows that time:
+ *            is_restart tells, and tracks of earlier scans do not go on. Between equal numbers the
+ *            reception clock decides, if it is near none of the present clocks, and else the sensor
+ *            that came first. A sensor that restarts before the scans that went out, while no other
+ *            one tells the time, sets it back.
  * Flood      More than flood_per_s messages of one sensor in a second are dropped. Unknown sensors
  *            and newcomers share one such limit. A new sensor takes the place of the one that was
- *            not heard for longest, but never that of a sensor that is heard, tells the common time
- *            and has sent follow_scans scans. For want of room, neither a new sensor nor a newcomer
- *            cuts short a scan of such an established sensor, nor makes it out of sequence while
- *            its parts are still coming.
+ *            not heard for longest, but never that of a sensor that tells the common time, has sent
+ *            follow_scans scans and is heard, or was for longer than it is silent. For want of
+ *            room, neither a new sensor nor a newcomer cuts short a scan of such an established
+ *            sensor, nor makes it out of sequence while its parts are still coming.
  *
  * The channel tells which sensor sent a message: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n> or
  * RHO_DIRECTIONS_<n>, with n the message's sensor_id; the last two are scans of bearings. The
@@ -245,6 +238,8 @@ struct rho_scan_assembler_source {
     uint32_t interval_us; /* smoothed time from one scan number to the next; 0: not known yet */
     /* time for which it was heard, by the reception clock, up to RHO_SCAN_ASSEMBLER_TRUST_US */
     uint32_t known_us;
+    uint32_t told_us;  /* the same by the sensor's own clock; saturates */
+    uint32_t delay_us; /* private: delay of the newest scan, beyond that of scans before it */
     /* private: checksum of the newest scan's first part, as it was received first */
     uint32_t check;
     uint16_t scans; /* number of accepted scans; saturates */
@@ -351,9 +346,8 @@ RHO_MUST_CHECK enum rho_status rho_scan_assembler_take(struct rho_scan_assembler
 
 /*
  * The next scan that is due, if there is one; it is valid until the next call of this function.
- * now_us INT64_MAX: all that is there goes out.
- * Returns 0 where nothing is due, or assembler is not initialised. Cost: RHO_MAX_OPEN_SCANS times
- * RHO_MAX_SENSORS. Stack: 300 bytes.
+ * now_us INT64_MAX: all that is there goes out. Returns 0 where nothing is due, or assembler is not
+ * initialised. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 300 bytes.
  */
 int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
                             struct rho_scan_assembler_item *item);

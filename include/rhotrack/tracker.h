@@ -437,19 +437,17 @@ RHO_MUST_CHECK enum rho_status rho_tracker_restart(struct rho_tracker *tracker);
 
 /*
  * Changes the configuration, from the next step on; tracks and all learned values are kept. Tracks
- * that the new configuration does not keep (slower than v_min) end in the next step.
- * Errors: NULL, STATE (not initialised; or there are tracks, and gate or input.is_estimated would
- * change their filter), CONFIG (as rho_tracker_init); nothing is changed. Constant cost. Stack:
- * 500 bytes.
+ * that the new configuration does not keep (slower than v_min) end in the next step. Errors: NULL,
+ * STATE (not initialised; or there are tracks, and gate or input.is_estimated would change their
+ * filter), CONFIG (as rho_tracker_init); nothing is changed. Constant cost. Stack: 500 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
                                                        const struct rho_tracker_config *config);
 
 /*
  * Describes a sensor, or replaces its description by sensor_id; values learned for it are kept, and
- * are applied to the new description.
- * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost:
- * RHO_MAX_SENSORS. Stack: 120 bytes.
+ * are applied to the new description. Errors: NULL, STATE, CONFIG (a field outside its range),
+ * CAPACITY (RHO_MAX_SENSORS). Cost: RHO_MAX_SENSORS. Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker,
                                                       const struct rho_sensor *sensor);

@@ -86,10 +86,9 @@ RHO_MUST_CHECK enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, 
 
 /*
  * Parses the head of a datagram; any bytes of any length may be given. The message behind it is not
- * decoded, and may be empty.
- * Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or no LCM), VALUE (a channel
- * that is empty, longer than 63 characters, or without its end); *datagram is unchanged. Cost: the
- * channel's length. Stack: 88 bytes.
+ * decoded, and may be empty. Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or
+ * no LCM), VALUE (a channel that is empty, longer than 63 characters, or without its end);
+ * *datagram is unchanged. Cost: the channel's length. Stack: 88 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_udpm_parse(const uint8_t *data, size_t size,
                                               struct rho_udpm_datagram *datagram);

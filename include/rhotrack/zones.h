@@ -117,9 +117,8 @@ RHO_MUST_CHECK enum rho_status rho_zones_add(struct rho_zones *zones, const stru
 
 /*
  * Counts the tracks of a report. Where its time is before that of the last report, all tracks that
- * were in zones have ended first.
- * Errors: NULL, STATE, VALUE (more than RHO_MAX_TRACKS tracks). Cost: tracks times zones, and
- * corners where a track is near. Stack: 720 bytes.
+ * were in zones have ended first. Errors: NULL, STATE, VALUE (more than RHO_MAX_TRACKS tracks).
+ * Cost: tracks times zones, and corners where a track is near. Stack: 720 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_zones_step(struct rho_zones *zones,
                                               const struct rho_report *report);

@@ -102,10 +102,7 @@ static float floored_along_m2(const struct rho_body_filter *body)
 float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned n)
 {
     const float most = (float)(n > body->most_plots ? n : body->most_plots);
-    if (n <= 1) {
-        return 1.0f;
-    }
-    return (most - (float)n) / (most - 1.0f) + ANEW_SHARE / (most * most);
+    return n <= 1 ? 1.0f : (most - (float)n) / (most - 1.0f) + ANEW_SHARE / (most * most);
 }
 
 /* Variance of n plots' mean square times n / 2, over v^2; v: the body's, own: the noise. */

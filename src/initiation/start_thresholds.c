@@ -71,10 +71,7 @@ struct climb_table {
 static float climb_probability(const struct climb_table *climbs, float u_nat)
 {
     float place = u_nat / CLIMB_STEP;
-    if (u_nat <= 0.0f) {
-        return 1.0f;
-    }
-    return place < (float)CLIMBS ? climbs->of[(int)place] : 0.0f;
+    return u_nat <= 0.0f ? 1.0f : place < (float)CLIMBS ? climbs->of[(int)place] : 0.0f;
 }
 
 static void solve_climbs(struct climb_table *climbs, const struct false_tracks *model,

@@ -81,9 +81,7 @@
  * above 0.55 v_max end. Twice: false tracks at twice v_max stay.
  */
 #define FAST_SHARE 1.1f
-/*
- * Successive fast updates that end a track. Half: one wrong plot does. Twice: false ones stay.
- */
+/* Successive fast updates that end a track. Half: one wrong plot does. Twice: false ones stay. */
 #define FAST_UPDATES 3
 
 /* split_bodies.c */

@@ -18,6 +18,20 @@
 #define CLOCK_OFFSET_SHARE 8
 
 /*
+ * scan_admission.c: jump_max_us over the largest error, with hold_us, of a sensor's time by its own
+ * clock. Half: steps of a second pass, and tracks are off by them. Twice: scans of a radar with
+ * uneven turns on a network that jitters by .3 s are refused.
+ */
+#define OWN_CLOCK_SHARE 64
+
+/*
+ * scan_admission.c: jump_max_us in which the delay of a sensor's network is forgotten. Half: after
+ * 15 s without a network, scans that then come at once are refused. Twice: a clock that is set back
+ * slowly is followed for longer.
+ */
+#define DELAY_JUMPS 2u
+
+/*
  * scan_admission.c: scan intervals of silence after which a sensor may have stopped: two may be
  * lost. Half: a sensor that loses a scan has no say against newcomers. Twice: newcomers wait longer
  * for a sensor that has gone.

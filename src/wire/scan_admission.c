@@ -32,17 +32,54 @@ static int is_later_within_jump(const struct rho_scan_assembler_config *config, 
     return time_us > from_us && are_near_times(time_us, from_us, config->jump_max_us);
 }
 
-/* 1 where took_us, less jitter, is above 3/2 of longest_us; 64 bits do not overflow. */
-static int is_over_3_halves(uint64_t took_us, uint64_t longest_us)
-{
-    return took_us > JITTER_US && took_us - JITTER_US > longest_us &&
-           took_us - JITTER_US - longest_us > longest_us / 2;
-}
-
 /* 1 where took_us, with jitter, is below 3/4 of usual_us. */
 static int is_under_3_quarters(uint64_t took_us, uint64_t usual_us)
 {
     return took_us + JITTER_US < usual_us - usual_us / 4;
+}
+
+/* Limited so that the product of two times does not overflow. */
+static uint64_t limit_us(uint64_t time_us)
+{
+    return time_us < UINT32_MAX ? time_us : UINT32_MAX;
+}
+
+/*
+ * Times that a sensor's clock may show. It goes on from its newest scan as the reception clock does,
+ * or at the pace of its scans where a record is played. An overdue sensor's may have stood.
+ */
+struct clock_span {
+    int64_t first_us, last_us;
+};
+
+static struct clock_span read_clock(const struct rho_scan_assembler_source *source, int64_t now_us)
+{
+    const uint64_t overdue_us = PRESENT_INTERVALS * (uint64_t)source->interval_us;
+    uint64_t since_us = limit_us(rho_elapsed_us(now_us, source->heard_us));
+    since_us =
+        source->known_us > 0 ? limit_us(since_us * source->told_us / source->known_us) : since_us;
+    return (struct clock_span){source->place.time_us +
+                                   (int64_t)(since_us < overdue_us ? since_us : overdue_us),
+                               source->place.time_us + (int64_t)(since_us + source->delay_us)};
+}
+
+/* How far the time of a scan that its network has delayed is off a sensor's clock. */
+static uint64_t clock_error_us(const struct rho_scan_assembler_source *source, int64_t time_us,
+                               uint64_t delay_us, int64_t now_us)
+{
+    const struct clock_span clock = read_clock(source, now_us);
+    return rho_elapsed_us(clock.first_us, time_us + (int64_t)delay_us) +
+           rho_elapsed_us(time_us, clock.last_us);
+}
+
+/* Tolerated error of a sensor's clock; of one whose pace is unknown, by all of jump_max_us. */
+static uint64_t clock_tolerance_us(const struct rho_scan_assembler_config *config,
+                                   const struct rho_scan_assembler_source *source, int share)
+{
+    const uint32_t known_us = source->known_us;
+    const int64_t most_us = config->hold_us + config->jump_max_us / (known_us > 0 ? share : 1);
+    const int is_fast = known_us > 0 && source->told_us > known_us;
+    return is_fast ? (uint64_t)most_us * source->told_us / known_us : (uint64_t)most_us;
 }
 
 /* Classifies a scan by its number and time against its sensor's newest scan. */
@@ -71,20 +108,17 @@ static enum scan_verdict classify_by_sequence(const struct rho_scan_assembler_co
         return source->seen >> -ahead & 1u ? SCAN_DUPLICATE : SCAN_TOO_LATE;
     }
     /*
-     * Numbers and times of a sensor advance together. A scan that took longer than its number, or
-     * the silence before it, explains has a wrong time; a scan that skips more numbers than there
-     * was time for has a wrong number. Accepted, such a scan would make the next ones look old.
+     * A time that fits neither its number nor its reception is wrong; so is a number that skips
+     * more than there was time for. Accepted, such a scan would make the next ones look old.
      */
     const uint64_t took_us = rho_elapsed_us(place->time_us, newest->time_us);
     const uint64_t usual_us = (uint64_t)ahead * source->interval_us;
-    const uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
     if (!is_later_within_jump(config, place->time_us, newest->time_us)) {
         return SCAN_WRONG_TIME;
     }
-    if (source->interval_us == 0) {
-        return SCAN_NEXT;
-    }
-    if (is_over_3_halves(took_us, usual_us > silent_us ? usual_us : silent_us)) {
+    const uint64_t most_us = clock_tolerance_us(config, source, OWN_CLOCK_SHARE);
+    if (source->interval_us > 0 && clock_error_us(source, place->time_us, 0, now_us) > most_us &&
+        !are_near_times((int64_t)took_us, (int64_t)usual_us, (int64_t)most_us)) {
         return SCAN_WRONG_TIME;
     }
     return ahead > 1 && is_under_3_quarters(took_us, usual_us) ? SCAN_WRONG_NUMBER : SCAN_NEXT;
@@ -152,7 +186,7 @@ static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
     const int was_refused = FOLLOWS_REPEATS && assembler->is_restart;
     return source->off_clock == 0 && ((source->skipped >> behind & 1u) || was_refused) &&
            before_us > 0 && !is_under_3_quarters(before_us, usual_us) &&
-           !is_over_3_halves(before_us, usual_us) &&
+           before_us <= usual_us + usual_us / 2 + JITTER_US &&
            rho_scan_is_in_time(assembler, (enum rho_scan_assembler_kind)source->kind,
                                place->time_us);
 }
@@ -210,9 +244,13 @@ uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
     const struct rho_scan_assembler_place *from = stray ? &stray->place : &source->place;
     const int is_next = verdict == SCAN_NEXT && source->scans > 0;
     const int32_t ahead = scan_number_difference(place->scan, from->scan);
+    /* of a scan that follows the one before: ahead is above 0, and jump_max_us fits 32 bits */
+    const uint32_t took_us = (uint32_t)rho_elapsed_us(place->time_us, from->time_us);
+    const uint64_t delay_us =
+        is_next ? limit_us(rho_elapsed_us(read_clock(source, now_us).last_us, place->time_us)) : 0;
+    source->delay_us =
+        (uint32_t)(delay_us - delay_us * took_us / (DELAY_JUMPS * (uint64_t)config->jump_max_us));
     if (is_next || stray) {
-        /* the scan follows the one before: ahead is above 0, and jump_max_us fits 32 bits */
-        const uint32_t took_us = (uint32_t)(place->time_us - from->time_us);
         const int64_t interval_us = took_us / (uint32_t)ahead;
         int64_t mean_us = source->interval_us;
         mean_us = is_next && mean_us > 0 ? mean_us + (interval_us - mean_us) / 4 : interval_us;
@@ -226,9 +264,10 @@ uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
     source->check = CHECK_NONE;
     /* silence beyond jump_max_us does not add to known_us */
     const uint64_t more_us = source->scans > 0 ? rho_elapsed_us(now_us, source->heard_us) : 0;
-    const uint32_t room_us = RHO_SCAN_ASSEMBLER_TRUST_US - source->known_us;
-    if (more_us <= (uint64_t)config->jump_max_us) {
-        source->known_us += more_us < room_us ? (uint32_t)more_us : room_us;
+    if (more_us <= (uint64_t)config->jump_max_us &&
+        more_us <= RHO_SCAN_ASSEMBLER_TRUST_US - source->known_us) {
+        source->known_us += (uint32_t)more_us;
+        source->told_us = rho_count(source->told_us, is_next ? took_us : (uint32_t)more_us);
     }
     source->heard_us = now_us;
     memset(source->strays, 0, sizeof source->strays);
@@ -271,16 +310,11 @@ uint32_t rho_scan_eldest_known_us(const struct rho_scan_assembler *assembler, in
     for (unsigned i = 0; i < RHO_MAX_SENSORS && !assembler->config.is_record; i++) {
         const struct rho_scan_assembler_source *source = &assembler->sources[i];
         const uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
-        const uint64_t interval_us = source->interval_us;
-        /*
-         * Counts where the next scan is not overdue, or the sensor was heard not long ago. Silent
-         * sensors must make no other one a newcomer: their clocks would hold its scans for ever.
-         */
+        /* A silent sensor must make no other one a newcomer: it would hold its scans for ever. */
         if (source->known_us > eldest_us && rho_scan_is_proven(&assembler->config, source) &&
             rho_scan_is_live(assembler, source, now_us) &&
-            (silent_us <= interval_us + interval_us / 4 ||
-             (silent_us <= jump_max_us / 2 && (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
-                                               silent_us <= PRESENT_INTERVALS * interval_us)))) {
+            (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
+             silent_us <= PRESENT_INTERVALS * (uint64_t)source->interval_us)) {
             eldest_us = source->known_us;
         }
     }
@@ -338,46 +372,50 @@ int64_t rho_scan_held_until_us(const struct rho_scan_assembler *assembler,
 
 /* The common clock */
 
-/*
- * 1 where a time is not on a sensor's clock: it is farther ahead of the sensor's newest scan than
- * the age of that scan, or far before it. After a sensor's first scan the tolerance is jump_max_us:
- * its interval, and the speed at which a record is played, are still unknown.
- */
+/* 1 where a time is not on a sensor's clock. */
 static int is_time_off_sensor(const struct rho_scan_assembler_config *config,
                               const struct rho_scan_assembler_source *source, int64_t time_us,
                               int64_t now_us)
 {
-    const int64_t share_us =
-        source->interval_us > 0 ? config->jump_max_us / CLOCK_OFFSET_SHARE : config->jump_max_us;
-    const uint64_t offset_max_us = (uint64_t)(config->hold_us + share_us);
-    const uint64_t ahead_us = rho_elapsed_us(time_us, source->place.time_us);
-    uint64_t old_us = rho_elapsed_us(now_us, source->heard_us);
-    old_us = old_us > 2ull * source->interval_us ? old_us : 2ull * source->interval_us;
-    return (ahead_us > offset_max_us && ahead_us - offset_max_us > old_us) ||
-           rho_elapsed_us(source->place.time_us, time_us) > offset_max_us;
+    return clock_error_us(source, time_us, 0, now_us) >
+           clock_tolerance_us(config, source, CLOCK_OFFSET_SHARE);
 }
 
 /*
  * 1 where a time is off the clocks of most live sensors on the common clock. Newcomers and unproven
- * sensors vote only where there are no others.
+ * sensors vote only where there are no others. A clock that has stepped may be off by half of its
+ * step, one that was off by as much as by its own. Without a vote, a restart before the scans that
+ * went out sets the clock back.
  */
 static int is_time_off_most(const struct rho_scan_assembler *assembler,
                             const struct rho_scan_assembler_source *source, int64_t time_us,
-                            int64_t now_us)
+                            enum scan_verdict verdict, int64_t now_us)
 {
+    const struct rho_scan_assembler_config *config = &assembler->config;
     const uint32_t eldest_us = rho_scan_eldest_known_us(assembler, now_us);
+    const int is_restart = verdict == SCAN_RESTARTS_SENSOR;
+    const int was_off = !is_restart && source->off_clock >= config->follow_scans;
+    const uint64_t delay_us = is_restart || source->scans == 0
+                                  ? 0
+                                  : rho_elapsed_us(read_clock(source, now_us).last_us, time_us);
+    const uint64_t step_us = clock_error_us(source, time_us, 0, now_us);
+    const int has_stepped =
+        is_restart && step_us > clock_tolerance_us(config, source, OWN_CLOCK_SHARE);
     int votes[2] = {0}, balance[2] = {0};
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *other = &assembler->sources[i];
         if (other != source && other->off_clock == 0 &&
             rho_scan_is_live(assembler, other, now_us)) {
             const int counts = may_vote_on_clock(assembler, other, eldest_us, now_us);
+            const uint64_t off_us = clock_error_us(other, time_us, delay_us, now_us);
+            const uint64_t most_us =
+                clock_tolerance_us(config, other, was_off ? OWN_CLOCK_SHARE : CLOCK_OFFSET_SHARE);
             votes[counts]++;
-            balance[counts] +=
-                is_time_off_sensor(&assembler->config, other, time_us, now_us) ? 1 : -1;
+            balance[counts] += off_us > most_us || (has_stepped && off_us > step_us / 2) ? 1 : -1;
         }
     }
-    return balance[votes[1] > 0] > 0;
+    return votes[0] + votes[1] > 0 ? balance[votes[1] > 0] > 0
+                                   : is_restart && time_us <= assembler->out_us;
 }
 
 /*
@@ -388,10 +426,10 @@ static int has_new_time_majority(const struct rho_scan_assembler *assembler,
                                  const struct rho_scan_assembler_source *source, int64_t time_us,
                                  int64_t now_us)
 {
-    const int64_t offset_max_us =
-        assembler->config.hold_us + assembler->config.jump_max_us / CLOCK_OFFSET_SHARE;
+    const struct rho_scan_assembler_config *config = &assembler->config;
+    const int64_t most_us = config->hold_us + config->jump_max_us / CLOCK_OFFSET_SHARE;
     const uint32_t eldest_us = rho_scan_eldest_known_us(assembler, now_us);
-    unsigned with = 1, against = 0;
+    unsigned with = 1, against = 0, right = 0;
     if (rho_scan_is_newcomer(source->known_us, eldest_us)) {
         return 0;
     }
@@ -402,31 +440,14 @@ static int has_new_time_majority(const struct rho_scan_assembler *assembler,
             continue;
         }
         if (other->off_clock == 0) {
-            against += (unsigned)rho_scan_is_proven(&assembler->config, other);
-        } else if (other->off_clock >= assembler->config.follow_scans) {
-            with += !is_time_off_sensor(&assembler->config, other, time_us, now_us);
+            against += (unsigned)rho_scan_is_proven(config, other);
+            right += !is_time_off_sensor(config, other, now_us, now_us);
+        } else if (other->off_clock >= config->follow_scans) {
+            with += !is_time_off_sensor(config, other, time_us, now_us);
         }
     }
-    return with > against || (with == against && are_near_times(time_us, now_us, offset_max_us) &&
-                              !are_near_times(assembler->clock_us, now_us, offset_max_us));
-}
-
-/*
- * 1 where a restarted sensor sets the common clock back: its time is not after the scans that went
- * out, and no other live sensor is on the common clock.
- */
-static int is_clock_set_back(const struct rho_scan_assembler *assembler,
-                             const struct rho_scan_assembler_source *source, int64_t time_us,
-                             int64_t now_us)
-{
-    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        const struct rho_scan_assembler_source *other = &assembler->sources[i];
-        if (other != source && other->off_clock == 0 &&
-            rho_scan_is_live(assembler, other, now_us)) {
-            return 0;
-        }
-    }
-    return time_us <= assembler->out_us;
+    return with > against ||
+           (with == against && right == 0 && are_near_times(time_us, now_us, most_us));
 }
 
 enum scan_clock rho_scan_update_clock(struct rho_scan_assembler *assembler,
@@ -437,9 +458,7 @@ enum scan_clock rho_scan_update_clock(struct rho_scan_assembler *assembler,
     enum scan_clock clock = CLOCK_COMMON;
     if (assembler->has_clock &&
         (!are_near_times(time_us, assembler->clock_us, config->jump_max_us) ||
-         (HAS_OTHERS && is_time_off_most(assembler, source, time_us, now_us)) ||
-         (FOLLOWS_REPEATS && verdict == SCAN_RESTARTS_SENSOR &&
-          is_clock_set_back(assembler, source, time_us, now_us)))) {
+         (HAS_OTHERS && is_time_off_most(assembler, source, time_us, verdict, now_us)))) {
         /* the refused scans before a sensor's restart have shown its new time, too */
         if (verdict == SCAN_RESTARTS_SENSOR && source->off_clock < config->follow_scans) {
             source->off_clock = (uint8_t)config->follow_scans;

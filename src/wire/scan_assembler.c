@@ -162,7 +162,7 @@ static int parse_channel(const char *channel, unsigned *message_kind, int16_t *s
 
 /*
  * A free place for a sensor, or that of the one heard longest ago of those that are unproven, off
- * the clock or silent; NULL: none.
+ * the clock, or silent for longer than jump_max_us and than they were heard; NULL: none.
  */
 static struct rho_scan_assembler_source *find_place(struct rho_scan_assembler *assembler,
                                                     int64_t now_us)
@@ -174,7 +174,8 @@ static struct rho_scan_assembler_source *find_place(struct rho_scan_assembler *a
             return source;
         }
         if ((!rho_scan_is_proven(&assembler->config, source) || source->off_clock > 0 ||
-             !rho_scan_is_live(assembler, source, now_us)) &&
+             (!rho_scan_is_live(assembler, source, now_us) &&
+              rho_elapsed_us(now_us, source->heard_us) > source->known_us)) &&
             (!oldest || source->heard_us < oldest->heard_us)) {
             oldest = source;
         }
@@ -302,14 +303,14 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
                                                .is_used = 1};
     }
     rho_slot_complete_all(assembler, place, verdict == SCAN_RESTARTS_SENSOR);
+    const enum scan_clock clock =
+        rho_scan_update_clock(assembler, place, heading->place.time_us, verdict, now_us);
     const uint32_t skipped =
         rho_scan_set_newest(&assembler->config, place, &heading->place, verdict, now_us);
     counters->scans_lost = rho_count(counters->scans_lost, skipped);
     if (verdict == SCAN_RESTARTS_SENSOR) {
         rho_scan_increment(&counters->sensor_restarts);
     }
-    const enum scan_clock clock =
-        rho_scan_update_clock(assembler, place, heading->place.time_us, verdict, now_us);
     if (clock == CLOCK_SET) {
         rho_slot_drop_waiting(assembler);
     }

@@ -64,9 +64,8 @@ static int is_waiting(const struct rho_scan_assembler_slot *slot)
 static void complete_slot(struct rho_scan_assembler *assembler,
                           struct rho_scan_assembler_slot *slot)
 {
-    if (slot->parts_here < slot->num_parts) {
-        rho_scan_increment(&assembler->counters.scans_incomplete);
-    }
+    uint32_t *incomplete = &assembler->counters.scans_incomplete;
+    *incomplete = rho_count(*incomplete, slot->parts_here < slot->num_parts);
     slot->state = SLOT_COMPLETE;
 }
 

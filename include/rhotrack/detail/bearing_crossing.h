@@ -66,8 +66,7 @@ RHO_MUST_CHECK enum rho_status rho_crossing_set_base(struct rho_crossing_base *b
  * *crossing is filled only with RHO_CROSSING_MEETS. A bearing that is not finite:
  * RHO_CROSSING_APART. Within 80 km, and with a delta of 0.02 to pi - 0.02 rad, the place is within
  * a metre of exact arithmetic; nearer to pi the crossing is between the sensors, which point at
- * each other.
- * Cost: three sines and cosines, two divisions. Stack: 110 bytes.
+ * each other. Cost: three sines and cosines, two divisions. Stack: 110 bytes.
  */
 enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, float bearing_a_rad,
                                          float bearing_b_rad, float range_max_m,

@@ -38,13 +38,12 @@ struct rho_gate_hough {
 
 /*
  * Finds theta* in each of the planes: the cell (j - 1/2) theta_cell_rad, j = 1, 2, ..., in [0, pi),
- * whose rho changed least from the estimate before the last to the last; of equals the lowest.
- * That cell is the nearest to the direction at right angles to the velocity's change: cells of any
- * size cost the same. Directions within 1e-6 rad of the border of two cells count as on it.
- * Errors: NULL, VALUE (planes, cell not in 1e-3 .. pi/2, velocities or their change not finite);
- * *hough is unchanged.
- * Cost: about 820 instructions for three planes. Stack: 130 bytes.
- * Source: the paper named in rhotrack/detail/input_estimation.h, (20) to (28).
+ * whose rho changed least from the estimate before the last to the last; of equals the lowest. That
+ * cell is the nearest to the direction at right angles to the velocity's change: cells of any size
+ * cost the same. Directions within 1e-6 rad of the border of two cells count as on it. Errors:
+ * NULL, VALUE (planes, cell not in 1e-3 .. pi/2, velocities or their change not finite); *hough is
+ * unchanged. Cost: about 820 instructions for three planes. Stack: 130 bytes. Source: the paper
+ * named in rhotrack/detail/input_estimation.h, (20) to (28).
  */
 RHO_MUST_CHECK enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t planes,
                                                    float theta_cell_rad, const float before_mps[3],

@@ -151,8 +151,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_range_rate(struct rho_input *inp
 
 /*
  * Updates with a bearing from a place, linearised at the corrected estimate. Errors: as
- * rho_kalman_update_bearing.
- * Cost: as rho_input_update_range_rate. Stack: 760 bytes.
+ * rho_kalman_update_bearing. Cost: as rho_input_update_range_rate. Stack: 760 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
                                                         const struct rho_input_config *config,

@@ -83,9 +83,8 @@ void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
  * Moves the estimate on by dt_s, -1e5 .. 1e5. noise_density is the power spectral density of white
  * acceleration on each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2
  * dt], so that one long step equals several short ones. Going back (dt_s < 0) adds no noise: forth
- * and back without noise is the identity but for rounding.
- * Errors: VALUE (arguments, or a result beyond RHO_VARIANCE_MAX; unchanged).
- * Cost: about 240 instructions. Stack: 72 bytes.
+ * and back without noise is the identity but for rounding. Errors: VALUE (arguments, or a result
+ * beyond RHO_VARIANCE_MAX; unchanged). Cost: about 240 instructions. Stack: 72 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s,
                                                   float noise_density);
@@ -173,9 +172,8 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
 
 /*
  * Updates with a bearing from a place, linearised at the estimate. An estimate nearer than a metre
- * to the place has no bearing: nothing is done, RHO_OK.
- * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and rho_kalman_linearise_bearing.
- * Stack: 300 bytes.
+ * to the place has no bearing: nothing is done, RHO_OK. Errors: as rho_kalman_update_row. Cost:
+ * rho_kalman_update_row and rho_kalman_linearise_bearing. Stack: 300 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m,
                                                          float y_m, float bearing_rad,

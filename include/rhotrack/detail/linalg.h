@@ -77,10 +77,9 @@ RHO_MUST_CHECK enum rho_status rho_linalg_nis(int num, const float *s, const flo
  * was measured, `innovation` is its measured minus predicted value, `variance` the measurement's
  * noise. *nis (may be NULL) gets innovation^2 / (p_ii + variance). No variance grows by more than
  * 2^-20 of itself, and a positive definite p stays so in spite of rounding, unless it is singular
- * to within 10^-6 already.
- * Errors: VALUE (innovation or a result not finite), SINGULAR (variance not positive, p_ii
- * negative, or their sum not a number one can divide by); x, p and *nis untouched.
- * Cost: about 240 instructions. Stack: 112 bytes.
+ * to within 10^-6 already. Errors: VALUE (innovation or a result not finite), SINGULAR (variance
+ * not positive, p_ii negative, or their sum not a number one can divide by); x, p and *nis
+ * untouched. Cost: about 240 instructions. Stack: 112 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element,
                                                           float innovation, float variance,
@@ -122,8 +121,7 @@ int rho_linalg_gated_nis(int n, float *s, float *d, float distance2_max, float *
  * p G^T with new a = c a + s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised
  * by 2^-22 of the larger one, more than rounding takes, so that a positive definite p stays so,
  * unless it is singular to within 10^-6 already. a and b are two different elements, 0 .. 5, and
- * not checked.
- * Cost: about 90 instructions.
+ * not checked. Cost: about 90 instructions.
  */
 void rho_linalg_rotate6(float p[21], int a, int b, float c, float s);
 

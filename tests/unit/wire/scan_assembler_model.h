@@ -25,6 +25,7 @@ struct model_source {
     unsigned believed, off;
     int64_t heard_us, bucket_us;
     wide interval_us, known_us;
+    wide told_us, delay_us; /* its own time since it was heard first; of its newest scan */
     uint32_t bucket;
     int has_first,
         /* part 0 of its newest scan came; that scan was refused as newcomers share their turns */
@@ -115,19 +116,65 @@ static inline int model_find_stray(const struct model_source *source,
     return found;
 }
 
+/* Time since its newest scan by a sensor's clock, which may be played faster or slower. */
+static inline wide model_clock_progress_us(const struct model_source *source, int64_t now_us)
+{
+    wide age_us = model_elapsed_us(source->heard_us, now_us);
+
+    age_us = age_us < UINT32_MAX ? age_us : UINT32_MAX;
+    age_us = source->known_us > 0 ? age_us * source->told_us / source->known_us : age_us;
+    return age_us < UINT32_MAX ? age_us : UINT32_MAX;
+}
+
+/* By its own clock, a sensor's scan could have come so much earlier. */
+static inline wide model_delay_us(const struct model_source *source, int64_t time_us,
+                                  int64_t now_us)
+{
+    wide now_there = source->place.time_us + source->delay_us;
+
+    now_there += model_clock_progress_us(source, now_us);
+    return now_there > time_us ? now_there - time_us : 0;
+}
+
+/* A clock may have stood for three intervals, and be ahead by the delay of the newest scan. */
+static inline wide model_clock_error_us(const struct model_source *source, int64_t time_us,
+                                        wide delay_us, int64_t now_us)
+{
+    wide most_us = model_clock_progress_us(source, now_us), least_us = 3 * source->interval_us;
+    wide first_us = source->place.time_us + (most_us < least_us ? most_us : least_us);
+    wide last_us = source->place.time_us + most_us + source->delay_us;
+
+    return time_us > last_us               ? time_us - last_us
+           : time_us + delay_us < first_us ? first_us - time_us - delay_us
+                                           : 0;
+}
+
+static inline wide model_clock_tolerance_us(const struct model_source *source, int share)
+{
+    wide most_us = model.config.hold_us + model.config.jump_max_us;
+
+    if (source->known_us > 0) { /* at the pace at which a record is played, where it is fast */
+        most_us = model.config.hold_us + model.config.jump_max_us / share;
+        if (source->told_us > source->known_us) {
+            most_us = most_us * source->told_us / source->known_us;
+        }
+    }
+    return most_us;
+}
+
 static inline enum model_verdict
 model_judge_time_step_of_newer_number(const struct model_source *source,
                                       const struct rho_scan_assembler_place *place, wide ahead,
                                       int64_t now_us)
 {
-    wide took = (wide)place->time_us - source->place.time_us;
-    wide usual = ahead * source->interval_us, silent = model_elapsed_us(source->heard_us, now_us);
-    wide longest = usual > silent ? usual : silent, most = longest + longest / 2 + 10000;
+    wide took = (wide)place->time_us - source->place.time_us, usual = ahead * source->interval_us;
+    wide most = model_clock_tolerance_us(source, 64);
 
     if (took <= 0 || took > model.config.jump_max_us) {
         return M_TIME;
     }
-    if (source->interval_us > 0 && took > most) {
+    if (source->interval_us > 0 && (took > usual + most || took < usual - most) &&
+        model_clock_error_us(source, place->time_us, 0, now_us) > most) {
         return M_TIME;
     }
     /* less than three quarters of the usual time, but for jitter */
@@ -260,13 +307,19 @@ static inline void model_accept_scan(struct model_source *source,
     struct rho_scan_assembler_place from =
         verdict == M_FOLLOW ? source->strays[stray].place : source->place;
     wide ahead = model_numbers_ahead(place->scan, from.scan);
+    wide more_us = model_elapsed_us(source->heard_us, now_us);
 
+    source->delay_us =
+        verdict == M_NEXT && !is_first ? model_delay_us(source, place->time_us, now_us) : 0;
+    source->delay_us = source->delay_us > UINT32_MAX ? UINT32_MAX : source->delay_us;
     if (!is_first) {
         wide interval_us = ((wide)place->time_us - from.time_us) / ahead;
         if (verdict == M_NEXT && source->interval_us > 0) {
             interval_us = source->interval_us + (interval_us - source->interval_us) / 4;
         }
         source->interval_us = interval_us > 0 ? interval_us : 1;
+        source->delay_us -= source->delay_us * ((wide)place->time_us - from.time_us) /
+                            (2 * model.config.jump_max_us);
     }
     if (verdict == M_NEXT && !is_first) {
         model.counters.scans_lost += (uint32_t)(ahead - 1);
@@ -278,34 +331,22 @@ static inline void model_accept_scan(struct model_source *source,
     source->num_strays = 0;
     source->has_first = source->has_no_turn = 0;
     source->place = *place;
-    if (!is_first && model_elapsed_us(source->heard_us, now_us) <= model.config.jump_max_us) {
-        source->known_us += model_elapsed_us(source->heard_us, now_us);
+    if (!is_first && more_us <= model.config.jump_max_us &&
+        more_us <= RHO_SCAN_ASSEMBLER_TRUST_US - source->known_us) {
+        source->known_us += more_us;
+        source->told_us += verdict == M_NEXT ? (wide)place->time_us - from.time_us : more_us;
+        source->told_us = source->told_us > UINT32_MAX ? UINT32_MAX : source->told_us;
     }
-    source->known_us = source->known_us > RHO_SCAN_ASSEMBLER_TRUST_US ? RHO_SCAN_ASSEMBLER_TRUST_US
-                                                                      : source->known_us;
     source->heard_us = now_us;
     source->believed++;
 }
 
 /* The common clock */
 
-static inline wide model_clock_tolerance_us(void)
-{
-    return model.config.jump_max_us / 8 + model.config.hold_us;
-}
-
 static inline int model_contradicts_time(const struct model_source *other, int64_t time_us,
                                          int64_t now_us)
 {
-    wide now_there = model_elapsed_us(other->heard_us, now_us);
-    wide lead = other->interval_us > 0 ? model_clock_tolerance_us()
-                                       : (wide)model.config.jump_max_us + model.config.hold_us;
-
-    if (now_there < 2 * other->interval_us) {
-        now_there = 2 * other->interval_us;
-    }
-    return (wide)time_us > other->place.time_us + now_there + lead ||
-           (wide)time_us < other->place.time_us - lead;
+    return model_clock_error_us(other, time_us, 0, now_us) > model_clock_tolerance_us(other, 8);
 }
 
 static inline int model_was_heard_lately(const struct model_source *source, int64_t now_us)
@@ -319,20 +360,14 @@ static inline int model_is_proven(const struct model_source *source)
     return source->believed >= model.config.follow_scans;
 }
 
-/*
- * Silent for at most three of its intervals, within an eighth to half of jump_max_us; at least one
- * and a quarter intervals.
- */
+/* Silent for at most three of its intervals, or an eighth of jump_max_us. */
 static inline int model_is_still_sending(const struct model_source *source, int64_t now_us)
 {
-    wide least_us = model.config.jump_max_us / 8, most_us = model.config.jump_max_us / 2;
-    wide silent_us = 3 * (wide)source->interval_us;
-    wide next_us = (wide)source->interval_us + source->interval_us / 4;
+    wide least_us = model.config.jump_max_us / 8, silent_us = 3 * source->interval_us;
 
-    silent_us = silent_us < least_us ? least_us : silent_us > most_us ? most_us : silent_us;
-    silent_us = silent_us < next_us ? next_us : silent_us;
     return model_was_heard_lately(source, now_us) &&
-           model_elapsed_us(source->heard_us, now_us) <= silent_us;
+           model_elapsed_us(source->heard_us, now_us) <=
+               (silent_us < least_us ? least_us : silent_us);
 }
 
 /*
@@ -390,44 +425,45 @@ static inline int model_is_early_newcomer_scan(const struct model_scan *scan, in
     return asked;
 }
 
+/*
+ * A clock that steps must come nearer to the others' than half of the step. One that was off comes
+ * back as near as to its own. Without others, only a restart before scans that were given is off.
+ */
 static inline int model_is_outvoted(const struct model_source *source, int64_t time_us,
-                                    int64_t now_us)
+                                    enum model_verdict verdict, int64_t now_us)
 {
-    int yes[2] = {0}, no[2] = {0};
+    int yes[2] = {0}, no[2] = {0}, was_off = source->off >= model.config.follow_scans;
+    wide delay_us =
+        verdict == M_NEXT && source->believed > 0 ? model_delay_us(source, time_us, now_us) : 0;
+    wide step_us = model_clock_error_us(source, time_us, 0, now_us);
+    int is_step = verdict == M_FOLLOW && step_us > model_clock_tolerance_us(source, 64);
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
         if (other != source && other->off == 0 && model_was_heard_lately(other, now_us)) {
-            int p = model_has_vote(other, now_us);
-            yes[p] += !model_contradicts_time(other, time_us, now_us);
-            no[p] += model_contradicts_time(other, time_us, now_us);
+            int p = model_has_vote(other, now_us), share = was_off && verdict == M_NEXT ? 64 : 8;
+            wide error_us = model_clock_error_us(other, time_us, delay_us, now_us);
+            int is_off = error_us > model_clock_tolerance_us(other, share) ||
+                         (is_step && error_us > step_us / 2);
+
+            yes[p] += !is_off;
+            no[p] += is_off;
         }
+    }
+    if (yes[0] + no[0] + yes[1] + no[1] == 0 && RHO_MAX_SENSORS > 1 && verdict == M_FOLLOW &&
+        model.has_out && time_us <= model.out_us) {
+        return 1;
     }
     int p = yes[1] + no[1] > 0;
-    return model.has_clock && (no[p] > yes[p] || model_time_difference_us(time_us, model.clock_us) >
-                                                     model.config.jump_max_us);
-}
-
-/*
- * Whether a restart is in the past, though not before the scans given, while no other sensor tells
- * the time.
- */
-static inline int model_is_lone_restart_before_given_scans(const struct model_source *source,
-                                                           int64_t time_us, int64_t now_us)
-{
-    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        const struct model_source *other = &model.sources[i];
-        if (other != source && other->off == 0 && model_was_heard_lately(other, now_us)) {
-            return 0;
-        }
-    }
-    return RHO_MAX_SENSORS > 1 && model.has_out && time_us <= model.out_us;
+    return no[p] > yes[p] ||
+           model_time_difference_us(time_us, model.clock_us) > model.config.jump_max_us;
 }
 
 static inline int model_wins_clock_vote(const struct model_source *source, int64_t time_us,
                                         int64_t now_us)
 {
-    unsigned with = 1, against = 0;
+    unsigned with = 1, against = 0, right = 0;
+    wide most_us = model.config.jump_max_us / 8 + model.config.hold_us;
 
     if (model_is_newcomer(source, now_us)) {
         return 0;
@@ -438,6 +474,7 @@ static inline int model_wins_clock_vote(const struct model_source *source, int64
         if (other != source && model_was_heard_lately(other, now_us) &&
             !model_is_newcomer(other, now_us)) {
             against += other->off == 0 && model_is_proven(other);
+            right += other->off == 0 && !model_contradicts_time(other, now_us, now_us);
             with += other->off >= model.config.follow_scans &&
                     !model_contradicts_time(other, time_us, now_us);
         }
@@ -445,8 +482,7 @@ static inline int model_wins_clock_vote(const struct model_source *source, int64
     if (with != against) {
         return with > against;
     }
-    return model_time_difference_us(time_us, now_us) <= model_clock_tolerance_us() &&
-           model_time_difference_us(model.clock_us, now_us) > model_clock_tolerance_us();
+    return right == 0 && model_time_difference_us(time_us, now_us) <= most_us;
 }
 
 static inline void model_restart_on_new_clock(int64_t time_us, int64_t now_us)
@@ -473,9 +509,7 @@ static inline void model_restart_on_new_clock(int64_t time_us, int64_t now_us)
 static inline int model_update_clock(struct model_source *source, int64_t time_us,
                                      enum model_verdict verdict, int64_t now_us)
 {
-    if (model_is_outvoted(source, time_us, now_us) ||
-        (verdict == M_FOLLOW &&
-         model_is_lone_restart_before_given_scans(source, time_us, now_us))) {
+    if (model.has_clock && model_is_outvoted(source, time_us, verdict, now_us)) {
         source->off = verdict == M_FOLLOW && source->off < model.config.follow_scans
                           ? model.config.follow_scans
                           : source->off + (source->off < UINT8_MAX);
@@ -638,6 +672,7 @@ static inline void model_begin_scan(struct model_source *source, const struct lo
 {
     struct rho_scan_assembler_place place = {look->time_us, look->scan, look->epoch};
     struct model_scan *scan;
+    int is_on_clock = 1;
 
     if (verdict == M_SKIPPED) {
         source->numbers[source->num_numbers++] = look->scan;
@@ -646,10 +681,11 @@ static inline void model_begin_scan(struct model_source *source, const struct lo
         if (verdict == M_FOLLOW) {
             model_wait_for_no_scan_before_those_of(source);
         }
+        is_on_clock = model_update_clock(source, look->time_us, verdict, now_us);
         model_accept_scan(source, &place, verdict, now_us);
     }
     model.counters.sensor_restarts += verdict == M_FOLLOW;
-    if (verdict != M_SKIPPED && !model_update_clock(source, look->time_us, verdict, now_us)) {
+    if (!is_on_clock) {
         model.counters.clock_jumps++;
         return;
     }

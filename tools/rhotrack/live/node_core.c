@@ -449,6 +449,32 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id)
     return false;
 }
 
+/* Time of a sensor's newest scan after the time at which the node received it. */
+static double clock_s(const struct rho_scan_assembler_source *source)
+{
+    return (double)(source->place.time_us - source->heard_us) / 1e6;
+}
+
+bool node_core_is_off_clock(const struct node_core *core, int16_t sensor_id, double *ahead_s)
+{
+    const struct rho_scan_assembler *assembler = &core->pipeline.node->assembler;
+    const struct rho_scan_assembler_source *off = NULL, *common = NULL;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *source = &assembler->sources[i];
+
+        if (source->is_used && source->sensor_id == sensor_id &&
+            source->off_clock >= assembler->config.follow_scans) {
+            off = source;
+        } else if (source->is_used && source->off_clock == 0 &&
+                   (!common || source->heard_us > common->heard_us)) {
+            common = source;
+        }
+    }
+    *ahead_s = off && common ? clock_s(off) - clock_s(common) : 0.0;
+    return off != NULL;
+}
+
 int node_core_sensor_scans_min(const struct node_core *core)
 {
     return (int)core->pipeline.node->assembler.config.follow_scans;

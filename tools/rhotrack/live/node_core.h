@@ -126,6 +126,12 @@ unsigned node_core_list_sensors(const struct node_core *core,
 /* True where a scan of the sensor came twice with different contents. */
 bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 
+/*
+ * True where the sensor's clock has been off those of the others for follow_scans scans, which are
+ * left aside; *ahead_s is then how far it is ahead of the common clock, as its scans are received.
+ */
+bool node_core_is_off_clock(const struct node_core *core, int16_t sensor_id, double *ahead_s);
+
 /* Number of consistent scans after which a sensor is believed (follow_scans). */
 int node_core_sensor_scans_min(const struct node_core *core);
 

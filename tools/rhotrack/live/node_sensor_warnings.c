@@ -65,6 +65,16 @@ static void print_silent_sensor(const struct rho_message_sensor *sensor, FILE *t
     fprintf(to, " for %.0f s\n", sensor->heard_age_us / US_PER_S);
 }
 
+static void print_sensor_off_clock(const struct rho_message_sensor *sensor, double ahead_s,
+                                   FILE *to)
+{
+    fprintf(to,
+            "rhotrack: sensor %d: its clock is %.1f s %s the others': its scans are left aside "
+            "until it is right, or sensor.%d.time_bias_s = %.1f says so\n",
+            sensor->sensor_id, fabs(ahead_s), ahead_s < 0.0 ? "behind" : "ahead of",
+            sensor->sensor_id, ahead_s);
+}
+
 static void print_health_change(const struct node_sensor *before,
                                 const struct rho_message_sensor *sensor, FILE *to)
 {
@@ -102,11 +112,18 @@ void node_sensors_print_changes(struct node_sensors *sensors, const struct node_
 
     for (unsigned i = 0; i < count; i++) {
         const bool has_two_senders = node_core_has_two_senders(core, now[i].sensor_id);
+        double ahead_s;
+        const bool is_off_clock = node_core_is_off_clock(core, now[i].sensor_id, &ahead_s);
 
         if (to) {
             struct node_sensor before = previous_sensor_state(sensors, &now[i]);
 
             print_health_change(&before, &now[i], to);
+            if (is_off_clock && !before.is_off_clock) {
+                print_sensor_off_clock(&now[i], ahead_s, to);
+            } else if (!is_off_clock && before.is_off_clock) {
+                fprintf(to, "rhotrack: sensor %d: its clock is right again\n", now[i].sensor_id);
+            }
             if (has_two_senders && !before.has_two_senders) {
                 fprintf(to,
                         "rhotrack: sensor %d: a scan came twice with different contents: two "
@@ -114,8 +131,9 @@ void node_sensors_print_changes(struct node_sensors *sensors, const struct node_
                         now[i].sensor_id);
             }
         }
-        next.of[next.count++] = (struct node_sensor){
-            now[i].sensor_id, now[i].kind, now[i].is_doubted, now[i].is_silent, has_two_senders};
+        next.of[next.count++] =
+            (struct node_sensor){now[i].sensor_id, now[i].kind,     now[i].is_doubted,
+                                 now[i].is_silent, has_two_senders, is_off_clock};
     }
     *sensors = next;
 }
@@ -123,6 +141,7 @@ void node_sensors_print_changes(struct node_sensors *sensors, const struct node_
 void node_sensors_print_all(const struct node_core *core, FILE *to)
 {
     struct rho_message_sensor now[RHO_MAX_SENSORS];
+    double ahead_s;
     const unsigned count = node_sensors_list_established(core, now);
 
     for (unsigned i = 0; i < count; i++) {
@@ -131,6 +150,9 @@ void node_sensors_print_all(const struct node_core *core, FILE *to)
         }
         if (now[i].is_silent) {
             print_silent_sensor(&now[i], to);
+        }
+        if (node_core_is_off_clock(core, now[i].sensor_id, &ahead_s)) {
+            print_sensor_off_clock(&now[i], ahead_s, to);
         }
     }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_sensor_warnings: prints when a sensor of a live node becomes suspect or silent, and when
- * that ends, once per change. A sensor is reported after follow_scans scans: anyone on the network
+ * node_sensor_warnings: prints when a sensor of a live node becomes suspect or silent, or its clock
+ * is off the others', and when that ends, once per change. A sensor is reported after follow_scans scans: anyone on the network
  * can send a few.
  */
 #ifndef RHOTRACK_TOOL_NODE_SENSOR_WARNINGS_H
@@ -15,7 +15,7 @@
 struct node_sensor {
     int16_t sensor_id;
     int8_t kind; /* kind of measurements, as in sensor_t */
-    bool is_doubted, is_silent, has_two_senders;
+    bool is_doubted, is_silent, has_two_senders, is_off_clock;
 };
 
 /* States of the sensors at the last call; all zero at the start. */
@@ -38,7 +38,7 @@ unsigned node_sensors_list_established(const struct node_core *core,
 void node_sensors_print_changes(struct node_sensors *sensors, const struct node_core *core,
                                 FILE *to);
 
-/* For the summary at the end: prints one line for each suspect or silent sensor. */
+/* For the summary at the end: prints one line for each sensor that is not well. */
 void node_sensors_print_all(const struct node_core *core, FILE *to);
 
 #endif
