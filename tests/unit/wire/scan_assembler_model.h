@@ -597,8 +597,9 @@ static inline struct model_source *model_find_place_for_source(int64_t now_us)
             room = source;
             break;
         }
+        wide silent_us = model_elapsed_us(source->heard_us, now_us);
         int is_kept = model_is_proven(source) && source->off == 0 &&
-                      model_elapsed_us(source->heard_us, now_us) <= model.config.jump_max_us;
+                      (silent_us <= model.config.jump_max_us || silent_us <= source->known_us);
         if (!is_kept && (!room || source->heard_us < room->heard_us)) {
             room = source;
         }

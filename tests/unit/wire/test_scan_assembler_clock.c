@@ -293,7 +293,7 @@ static void the_first_scan_on_a_new_clock_is_marked_restart(void **state)
 
 static void scans_waiting_when_the_clock_is_set_are_late(void **state)
 {
-    struct look look = {.time_us = 8 * SECOND_US, .scan = 6, .sensor_id = 2};
+    struct look look = {.time_us = 7 * SECOND_US, .scan = 6, .sensor_id = 2};
 
     (void)state;
     start_assembler_and_scan_numbers();
@@ -379,7 +379,10 @@ static void a_record_played_ten_times_as_fast_is_accepted(void **state)
     }
 }
 
-/* A short record played again: times of given scans come again, with another epoch. */
+/*
+ * A short record played again: times of given scans come again, with another epoch. Beside another
+ * sensor its clock has stepped, and it is left aside.
+ */
 static void a_lone_sensor_restarting_in_the_past_sets_the_clock(void **state)
 {
     (void)state;
@@ -391,7 +394,8 @@ static void a_lone_sensor_restarting_in_the_past_sets_the_clock(void **state)
             if (with_others) {
                 assert_true(push_next_scan(1, t * SECOND_US, t * SECOND_US));
             }
-            assert_int_equal(push_next_scan(0, (t - 3) * SECOND_US, t * SECOND_US), t >= 22);
+            assert_int_equal(push_next_scan(0, (t - 3) * SECOND_US, t * SECOND_US),
+                             t >= 22 && !with_others);
         }
         assert_int_equal(restarts, with_others ? 0 : 1);
     }

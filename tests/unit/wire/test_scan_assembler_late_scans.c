@@ -243,7 +243,7 @@ static void others_wait_only_for_a_skipped_scan_that_may_be_older(void **state)
     static const struct {
         int64_t time_us;
         int waits;
-    } cases[] = {{7 * SECOND_US, 0},
+    } cases[] = {{7600000, 0},
                  {8 * SECOND_US, 0}, /* exactly as old as scan 8 will be */
                  {8 * SECOND_US + 1, 1},
                  {9 * SECOND_US - 1, 1}};
