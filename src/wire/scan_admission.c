@@ -45,8 +45,8 @@ static uint64_t limit_us(uint64_t time_us)
 }
 
 /*
- * Times that a sensor's clock may show. It goes on from its newest scan as the reception clock does,
- * or at the pace of its scans where a record is played. An overdue sensor's may have stood.
+ * Times that a sensor's clock may show. It goes on from its newest scan as the reception clock
+ * does, or at its pace where a record is played. An overdue sensor's may have stood.
  */
 struct clock_span {
     int64_t first_us, last_us;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * node_sensor_warnings: prints when a sensor of a live node becomes suspect or silent, or its clock
- * is off the others', and when that ends, once per change. A sensor is reported after follow_scans scans: anyone on the network
- * can send a few.
+ * is off the others', and when that ends, once per change. A sensor is reported after follow_scans
+ * scans: anyone on the network can send a few.
  */
 #ifndef RHOTRACK_TOOL_NODE_SENSOR_WARNINGS_H
 #define RHOTRACK_TOOL_NODE_SENSOR_WARNINGS_H
