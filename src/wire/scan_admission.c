@@ -38,10 +38,15 @@ static int is_under_3_quarters(uint64_t took_us, uint64_t usual_us)
     return took_us + JITTER_US < usual_us - usual_us / 4;
 }
 
-/* Limited so that the product of two times does not overflow. */
-static uint64_t limit_us(uint64_t time_us)
+/* A time at a pace of part_us in whole_us (0: as it is). Floats are small code, exact to 1e-7. */
+static uint32_t scale_us(uint64_t time_us, uint32_t part_us, uint32_t whole_us)
 {
-    return time_us < UINT32_MAX ? time_us : UINT32_MAX;
+    const uint32_t limited_us = time_us < UINT32_MAX ? (uint32_t)time_us : UINT32_MAX;
+    if (!HAS_OTHERS || whole_us == 0) {
+        return limited_us;
+    }
+    const float scaled_us = (float)limited_us * ((float)part_us / (float)whole_us);
+    return scaled_us < 4.29e9f ? (uint32_t)scaled_us : UINT32_MAX; /* below 2^32 */
 }
 
 /*
@@ -55,12 +60,12 @@ struct clock_span {
 static struct clock_span read_clock(const struct rho_scan_assembler_source *source, int64_t now_us)
 {
     const uint64_t overdue_us = PRESENT_INTERVALS * (uint64_t)source->interval_us;
-    uint64_t since_us = limit_us(rho_elapsed_us(now_us, source->heard_us));
-    since_us =
-        source->known_us > 0 ? limit_us(since_us * source->told_us / source->known_us) : since_us;
-    return (struct clock_span){source->place.time_us +
-                                   (int64_t)(since_us < overdue_us ? since_us : overdue_us),
-                               source->place.time_us + (int64_t)(since_us + source->delay_us)};
+    const uint64_t since_us =
+        scale_us(rho_elapsed_us(now_us, source->heard_us), source->told_us, source->known_us);
+    return (struct clock_span){
+        source->place.time_us +
+            (int64_t)(since_us < overdue_us || !HAS_OTHERS ? since_us : overdue_us),
+        source->place.time_us + (int64_t)(since_us + source->delay_us)};
 }
 
 /* How far the time of a scan that its network has delayed is off a sensor's clock. */
@@ -77,9 +82,9 @@ static uint64_t clock_tolerance_us(const struct rho_scan_assembler_config *confi
                                    const struct rho_scan_assembler_source *source, int share)
 {
     const uint32_t known_us = source->known_us;
-    const int64_t most_us = config->hold_us + config->jump_max_us / (known_us > 0 ? share : 1);
-    const int is_fast = known_us > 0 && source->told_us > known_us;
-    return is_fast ? (uint64_t)most_us * source->told_us / known_us : (uint64_t)most_us;
+    const uint32_t told_us = source->told_us > known_us ? source->told_us : known_us;
+    const int64_t jump_us = config->jump_max_us / (HAS_OTHERS && known_us == 0 ? 1 : share);
+    return scale_us((uint64_t)(config->hold_us + jump_us), told_us, known_us);
 }
 
 /* Classifies a scan by its number and time against its sensor's newest scan. */
@@ -246,10 +251,11 @@ uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
     const int32_t ahead = scan_number_difference(place->scan, from->scan);
     /* of a scan that follows the one before: ahead is above 0, and jump_max_us fits 32 bits */
     const uint32_t took_us = (uint32_t)rho_elapsed_us(place->time_us, from->time_us);
+    const uint32_t jump_max_us = (uint32_t)config->jump_max_us;
     const uint64_t delay_us =
-        is_next ? limit_us(rho_elapsed_us(read_clock(source, now_us).last_us, place->time_us)) : 0;
-    source->delay_us =
-        (uint32_t)(delay_us - delay_us * took_us / (DELAY_JUMPS * (uint64_t)config->jump_max_us));
+        HAS_OTHERS && is_next ? rho_elapsed_us(read_clock(source, now_us).last_us, place->time_us)
+                              : 0;
+    source->delay_us = scale_us(delay_us, jump_max_us - took_us / DELAY_JUMPS, jump_max_us);
     if (is_next || stray) {
         const int64_t interval_us = took_us / (uint32_t)ahead;
         int64_t mean_us = source->interval_us;
@@ -264,7 +270,7 @@ uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
     source->check = CHECK_NONE;
     /* silence beyond jump_max_us does not add to known_us */
     const uint64_t more_us = source->scans > 0 ? rho_elapsed_us(now_us, source->heard_us) : 0;
-    if (more_us <= (uint64_t)config->jump_max_us &&
+    if (HAS_OTHERS && more_us <= (uint64_t)config->jump_max_us &&
         more_us <= RHO_SCAN_ASSEMBLER_TRUST_US - source->known_us) {
         source->known_us += (uint32_t)more_us;
         source->told_us = rho_count(source->told_us, is_next ? took_us : (uint32_t)more_us);
@@ -305,15 +311,15 @@ int rho_scan_is_live(const struct rho_scan_assembler *assembler,
 
 uint32_t rho_scan_eldest_known_us(const struct rho_scan_assembler *assembler, int64_t now_us)
 {
-    const uint64_t jump_max_us = (uint64_t)assembler->config.jump_max_us;
+    const uint64_t most_us = (uint64_t)assembler->config.jump_max_us / CLOCK_OFFSET_SHARE;
     uint32_t eldest_us = 0;
-    for (unsigned i = 0; i < RHO_MAX_SENSORS && !assembler->config.is_record; i++) {
+    for (unsigned i = 0; HAS_OTHERS && i < RHO_MAX_SENSORS && !assembler->config.is_record; i++) {
         const struct rho_scan_assembler_source *source = &assembler->sources[i];
         const uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
         /* A silent sensor must make no other one a newcomer: it would hold its scans for ever. */
         if (source->known_us > eldest_us && rho_scan_is_proven(&assembler->config, source) &&
             rho_scan_is_live(assembler, source, now_us) &&
-            (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
+            (silent_us <= most_us ||
              silent_us <= PRESENT_INTERVALS * (uint64_t)source->interval_us)) {
             eldest_us = source->known_us;
         }
@@ -339,8 +345,7 @@ static int may_vote_on_clock(const struct rho_scan_assembler *assembler,
 int64_t rho_scan_held_until_us(const struct rho_scan_assembler *assembler,
                                const struct rho_scan_assembler_slot *slot)
 {
-    const uint32_t eldest_us =
-        HAS_OTHERS ? rho_scan_eldest_known_us(assembler, slot->heard_us) : 0u;
+    const uint32_t eldest_us = rho_scan_eldest_known_us(assembler, slot->heard_us);
     int64_t first_us = INT64_MAX;
     int is_asked = 0;
     if (!HAS_OTHERS ||
@@ -382,10 +387,9 @@ static int is_time_off_sensor(const struct rho_scan_assembler_config *config,
 }
 
 /*
- * 1 where a time is off the clocks of most live sensors on the common clock. Newcomers and unproven
- * sensors vote only where there are no others. A clock that has stepped may be off by half of its
- * step, one that was off by as much as by its own. Without a vote, a restart before the scans that
- * went out sets the clock back.
+ * 1 where a time is off the clocks of most live sensors on the common clock; newcomers and unproven
+ * ones vote where there are no others. A clock that has stepped may be off by half of its step, one
+ * that was off as by its own. Without a vote, a restart before the last scan sets the clock back.
  */
 static int is_time_off_most(const struct rho_scan_assembler *assembler,
                             const struct rho_scan_assembler_source *source, int64_t time_us,
@@ -460,11 +464,9 @@ enum scan_clock rho_scan_update_clock(struct rho_scan_assembler *assembler,
         (!are_near_times(time_us, assembler->clock_us, config->jump_max_us) ||
          (HAS_OTHERS && is_time_off_most(assembler, source, time_us, verdict, now_us)))) {
         /* the refused scans before a sensor's restart have shown its new time, too */
-        if (verdict == SCAN_RESTARTS_SENSOR && source->off_clock < config->follow_scans) {
-            source->off_clock = (uint8_t)config->follow_scans;
-        } else if (source->off_clock < UINT8_MAX) {
-            source->off_clock++;
-        }
+        const unsigned least = verdict == SCAN_RESTARTS_SENSOR ? config->follow_scans : 1u;
+        const unsigned off = source->off_clock + (source->off_clock < UINT8_MAX);
+        source->off_clock = (uint8_t)(off > least ? off : least);
         if (source->off_clock < config->follow_scans ||
             (HAS_OTHERS && !has_new_time_majority(assembler, source, time_us, now_us))) {
             return CLOCK_OTHER;

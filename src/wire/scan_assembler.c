@@ -308,9 +308,8 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
     const uint32_t skipped =
         rho_scan_set_newest(&assembler->config, place, &heading->place, verdict, now_us);
     counters->scans_lost = rho_count(counters->scans_lost, skipped);
-    if (verdict == SCAN_RESTARTS_SENSOR) {
-        rho_scan_increment(&counters->sensor_restarts);
-    }
+    counters->sensor_restarts =
+        rho_count(counters->sensor_restarts, verdict == SCAN_RESTARTS_SENSOR);
     if (clock == CLOCK_SET) {
         rho_slot_drop_waiting(assembler);
     }

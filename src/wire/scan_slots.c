@@ -290,7 +290,7 @@ struct rho_scan_assembler_slot *rho_slot_find_spare(struct rho_scan_assembler *a
 {
     struct rho_scan_assembler_slot *spare = find_first(assembler, SLOT_COMPLETE, now_us);
     struct rho_scan_assembler_slot *weak = NULL;
-    const uint32_t eldest_us = HAS_OTHERS ? rho_scan_eldest_known_us(assembler, now_us) : 0u;
+    const uint32_t eldest_us = rho_scan_eldest_known_us(assembler, now_us);
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
         const struct rho_scan_assembler_source *source = &assembler->sources[slot->source];

@@ -116,14 +116,23 @@ static inline int model_find_stray(const struct model_source *source,
     return found;
 }
 
+/* Of times as the library computes them: up to 2^32, by floats. */
+static inline wide model_scale_us(wide time_us, wide part_us, wide whole_us)
+{
+    float scaled_us = (float)(uint32_t)(time_us < UINT32_MAX ? time_us : UINT32_MAX) *
+                      ((float)(uint32_t)part_us / (float)(uint32_t)whole_us);
+
+    return scaled_us < 4.29e9f ? (uint32_t)scaled_us : UINT32_MAX;
+}
+
 /* Time since its newest scan by a sensor's clock, which may be played faster or slower. */
 static inline wide model_clock_progress_us(const struct model_source *source, int64_t now_us)
 {
     wide age_us = model_elapsed_us(source->heard_us, now_us);
 
-    age_us = age_us < UINT32_MAX ? age_us : UINT32_MAX;
-    age_us = source->known_us > 0 ? age_us * source->told_us / source->known_us : age_us;
-    return age_us < UINT32_MAX ? age_us : UINT32_MAX;
+    return source->known_us > 0  ? model_scale_us(age_us, source->told_us, source->known_us)
+           : age_us < UINT32_MAX ? age_us
+                                 : UINT32_MAX;
 }
 
 /* By its own clock, a sensor's scan could have come so much earlier. */
@@ -155,9 +164,9 @@ static inline wide model_clock_tolerance_us(const struct model_source *source, i
 
     if (source->known_us > 0) { /* at the pace at which a record is played, where it is fast */
         most_us = model.config.hold_us + model.config.jump_max_us / share;
-        if (source->told_us > source->known_us) {
-            most_us = most_us * source->told_us / source->known_us;
-        }
+        most_us = model_scale_us(
+            most_us, source->told_us > source->known_us ? source->told_us : source->known_us,
+            source->known_us);
     }
     return most_us;
 }
@@ -311,15 +320,15 @@ static inline void model_accept_scan(struct model_source *source,
 
     source->delay_us =
         verdict == M_NEXT && !is_first ? model_delay_us(source, place->time_us, now_us) : 0;
-    source->delay_us = source->delay_us > UINT32_MAX ? UINT32_MAX : source->delay_us;
     if (!is_first) {
         wide interval_us = ((wide)place->time_us - from.time_us) / ahead;
         if (verdict == M_NEXT && source->interval_us > 0) {
             interval_us = source->interval_us + (interval_us - source->interval_us) / 4;
         }
         source->interval_us = interval_us > 0 ? interval_us : 1;
-        source->delay_us -= source->delay_us * ((wide)place->time_us - from.time_us) /
-                            (2 * model.config.jump_max_us);
+        source->delay_us = model_scale_us(
+            source->delay_us, model.config.jump_max_us - ((wide)place->time_us - from.time_us) / 2,
+            model.config.jump_max_us);
     }
     if (verdict == M_NEXT && !is_first) {
         model.counters.scans_lost += (uint32_t)(ahead - 1);
