@@ -465,7 +465,7 @@ enum scan_clock rho_scan_update_clock(struct rho_scan_assembler *assembler,
          (HAS_OTHERS && is_time_off_most(assembler, source, time_us, verdict, now_us)))) {
         /* the refused scans before a sensor's restart have shown its new time, too */
         const unsigned least = verdict == SCAN_RESTARTS_SENSOR ? config->follow_scans : 1u;
-        const unsigned off = source->off_clock + (source->off_clock < UINT8_MAX);
+        const unsigned off = source->off_clock + (source->off_clock < UINT8_MAX ? 1u : 0u);
         source->off_clock = (uint8_t)(off > least ? off : least);
         if (source->off_clock < config->follow_scans ||
             (HAS_OTHERS && !has_new_time_majority(assembler, source, time_us, now_us))) {
