@@ -46,7 +46,7 @@
  *   RHO_MAX_TRACKS              32         2000  810
  *   RHO_MAX_HYPOTHESES          96         6000  410
  *   RHO_MAX_SCANS                7           12  9400: 35 a plot
- *   RHO_MAX_SENSORS              8           64  560
+ *   RHO_MAX_SENSORS              8           64  570
  *   RHO_MAX_ECHOES             128         8192  64; 0 saves 15 KB, and 10 KB of flash
  *   RHO_MAX_OPEN_SCANS           2           16  14600: 56 a plot; of messages alone
  *   RHO_WORK_MAX            500000      8000000  none: it bounds the time of a step
