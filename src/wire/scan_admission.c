@@ -252,10 +252,11 @@ uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
     /* of a scan that follows the one before: ahead is above 0, and jump_max_us fits 32 bits */
     const uint32_t took_us = (uint32_t)rho_elapsed_us(place->time_us, from->time_us);
     const uint32_t jump_max_us = (uint32_t)config->jump_max_us;
-    const uint64_t delay_us =
-        HAS_OTHERS && is_next ? rho_elapsed_us(read_clock(source, now_us).last_us, place->time_us)
-                              : 0;
-    source->delay_us = scale_us(delay_us, jump_max_us - took_us / DELAY_JUMPS, jump_max_us);
+    source->delay_us =
+        HAS_OTHERS && is_next
+            ? scale_us(rho_elapsed_us(read_clock(source, now_us).last_us, place->time_us),
+                       jump_max_us - took_us / DELAY_JUMPS, jump_max_us)
+            : 0;
     if (is_next || stray) {
         const int64_t interval_us = took_us / (uint32_t)ahead;
         int64_t mean_us = source->interval_us;
