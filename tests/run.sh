@@ -3,8 +3,8 @@
 #
 # Runs test programs and scripts, and counts: tests/run.sh CHECK...
 #
-# Programs run beside one another, as many as there are processors, and so do scripts that have a
-# line `# Runs beside others`: those need no network, no build and no time of their own. The other
+# Programs run beside one another, as many as there are processors, and so do scripts that say `Runs
+# beside others` in a comment: those need no network, no build and no time of their own. The other
 # scripts run one after the other behind them. All are told in the order given, those beside one
 # another first. A check passes where it exits with 0. CMocka programs count each of their tests,
 # scripts that end with a line `N passed, N failed` count as it says, all others as one. A check
@@ -97,7 +97,7 @@ for check in "$@"; do
     rm -f "$(log_of "$check").result"
     if [[ $check != *.sh ]]; then
         programs+=("$check")
-    elif grep -qs '^# Runs beside others' "$check"; then
+    elif grep -qs '^#.*Runs beside others' "$check"; then
         early+=("$check")
     else
         scripts+=("$check")

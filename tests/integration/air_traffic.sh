@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# `simulate air-traffic` and `formation` as files, and `track` with what they tell. Runs beside
-# others.
+# `simulate air-traffic` and `formation` as files, and `track` with what they tell.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Bearings: simulate passive-..., the bearings files that `plot scans` takes and refuses, what
-# `initiate` and `track` make of them, alone and beside a radar's plots, and pictures. Runs beside
-# others.
+# `initiate` and `track` make of them, alone and beside a radar's plots, and pictures.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Echoes that come back, in a file: saved by one run, known by the next one from the first scan on;
 # by hand; track and node; what is refused; drawn; published. And a build without the map.
+# Runs beside others.
 here=$(realpath "$(dirname "$0")")
 . "$here/checks.bash"
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # tools/gates/layers.py passes on the sources as they are, and goes red for each kind of forbidden
 # include.
+# Runs beside others.
 set -eu
 cd "$(dirname "$0")/../.."
 copy=$(mktemp -d)

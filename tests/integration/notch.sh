@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # A radar that is blind near zero Doppler: targets that stop or pass tangentially keep their
 # identity where the notch is said, in the file of settings or by an option.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

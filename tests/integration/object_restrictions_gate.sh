@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # tools/gates/object_restrictions.py passes on a clean little library, and goes red for each thing
 # that it forbids, with file and function.
+# Runs beside others.
 set -eu
 cd "$(dirname "$0")/../.."
 BUILD=$(mktemp -d)

@@ -51,7 +51,7 @@ meet() { # own name, the other's
 '    sleep 0.1\ndone\nexit 1\n' "$folder" "$1" "$folder" "$2"
 }
 if [ "$(nproc)" -gt 1 ]; then
-    check one.sh "# Runs beside others.
+    check one.sh "# Meets the other. Runs beside others.
 $(meet one other)"
     check other.sh "# Runs beside others.
 $(meet other one)"

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # node --snapshot: a node that is started again goes on as if it had not ended; what is no snapshot
 # of it is told, and what is damaged is set aside.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

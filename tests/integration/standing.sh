@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Targets that stand: with standing=targets those that never moved are tracks; with clutter, the
 # default, the summary counts them, and what came in and stands is one track all the same.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # tools/gates/tested.py passes on the sources as they are, and goes red where a room's tests stop
 # naming a public function, also where only another room's test names it.
+# Runs beside others.
 set -eu
 cd "$(dirname "$0")/../.."
 build=$(realpath "${BUILD:-build}")
