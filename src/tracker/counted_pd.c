@@ -66,6 +66,16 @@ void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row)
     look->log_miss = rho_log(1.0f - look->pd);
 }
 
+float rho_pd_most(const struct rho_look *look)
+{
+    float most = look->pd;
+    for (unsigned i = 0; i < look->tracker->num_rows; i++) {
+        const struct rho_tracker_sensor *row = &look->tracker->sensors[i];
+        most = rho_larger(most, row->hits / (row->looks + STATED_LOOKS));
+    }
+    return most;
+}
+
 /* Where a track is, seen from the look's sensor. */
 struct place {
     struct rho_pd_place *ring, *octant;

@@ -15,6 +15,8 @@ struct detection {
  * counted of it. row: NULL, nothing.
  */
 void rho_pd_open(struct rho_look *look, const struct rho_tracker_sensor *row);
+/* P_D of the sensor that sees most: the look's, or another's that has shown more. */
+float rho_pd_most(const struct rho_look *look);
 /* Counts a look at a track, `visible` of which a hit is expected, as a hit by a probability. */
 void rho_pd_count(struct rho_tracker_sensor *row, float visible, float hit);
 /* The same of plots, by the track's place, too; ratio: G of track_life.c, which tells a hit. */

@@ -228,7 +228,7 @@ static float blind_probability(const struct rho_look *look)
 
 /* Counts for P_D; and evidence that it is a target, not an object that is seldom seen. */
 static void count_seen_or_missed(const struct rho_look *look, struct rho_track *track, float ratio,
-                                 float seeing)
+                                 float seeing, float pd_most)
 {
     if (look->row && track->was_confirmed) {
         rho_pd_count_place(look, track, seeing * track->visible, ratio);
@@ -237,15 +237,15 @@ static void count_seen_or_missed(const struct rho_look *look, struct rho_track *
         /* likelihood of what the look saw with a target over that with an object seldom seen */
         track->seen_nat += rho_log(ratio / (1.0f + SELDOM * (ratio - 1.0f)));
     } else {
-        /* in misses where the sensor has its usual P_D; the square: about as the logarithms */
-        const float share = (1.0f - ratio) / look->pd;
+        /* in misses by the sensor that sees most; the square: about as the logarithms */
+        const float share = (1.0f - ratio) / pd_most;
         track->missed += seeing * share * share;
     }
 }
 
 void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    const float blind = blind_probability(look);
+    const float blind = blind_probability(look), pd_most = rho_pd_most(look);
     if (look->row && look->teaches) {
         look->row->blind = BLIND_STAYS * blind;
     }
@@ -256,7 +256,7 @@ void rho_life_weigh(struct rho_tracker *tracker, const struct rho_look *look)
             const float gain = visible_gain(track, ratio);
             const float sum = 1.0f + track->visible * gain;
             if (look->scan && look->teaches) { /* bearings do not tell one object from another */
-                count_seen_or_missed(look, track, ratio, 1.0f - blind);
+                count_seen_or_missed(look, track, ratio, 1.0f - blind, pd_most);
                 const float seen = ratio > 1.0f ? track->visible * (1.0f + gain) / sum : 0.0f;
                 tracker->returned += rho_life_is_established(track) ? track->appeared * seen : 0.0f;
             }

@@ -27,7 +27,7 @@
 #define DELAY_US INT64_C(5000)
 #define CLUTTER 10
 #define STRANGERS 8
-#define DATAGRAMS 6000
+#define DATAGRAMS 14000
 #define SIGMA_M 20.0
 #define NEAR_M 1000.0
 
@@ -363,6 +363,56 @@ static void attack_with_targetless_scan_after_each_of_radar(struct live *live, i
     }
 }
 
+/* ---- strangers who were heard for five minutes before ----------------------------------------- */
+
+/* 13 scans of sensor 9 in the five minutes before the attack, with a plot each: heard for long. */
+static void be_heard_for_five_minutes(struct live *live, int64_t until_us)
+{
+    for (int32_t i = 0; i < 13; i++) {
+        const int64_t now_us = until_us - (13 - i) * 24 * SECOND_US;
+
+        add_datagram(live, (struct datagram){.received_us = now_us,
+                                             .time_us = now_us,
+                                             .scan = i,
+                                             .sensor_id = 9,
+                                             .num_plots = 1,
+                                             .sigma_m = 20.0f,
+                                             .half_m = 100.0f});
+    }
+}
+
+/* Then 120 without plots of the targets, 5 ms apart. */
+static void attack_of_one_heard_with_120_scans_without_target_plots(struct live *live,
+                                                                    int64_t from_us)
+{
+    be_heard_for_five_minutes(live, from_us);
+    for (int16_t i = 0; i < 120; i++) {
+        add_datagram(live, (struct datagram){.received_us = from_us + i * 5000,
+                                             .time_us = from_us + i * 5000,
+                                             .scan = 13 + i,
+                                             .sensor_id = 9,
+                                             .num_plots = 1,
+                                             .sigma_m = 20.0f,
+                                             .half_m = 100.0f});
+    }
+}
+
+/* Then one each 2 s, 6 s ahead. */
+static void attack_of_one_heard_with_a_scan_6_s_ahead_each_2_s(struct live *live, int64_t from_us)
+{
+    be_heard_for_five_minutes(live, from_us);
+    for (int32_t i = 0; i * 2 < end_s - attack_s; i++) {
+        const int64_t now_us = from_us + i * 2 * SECOND_US;
+
+        add_datagram(live, (struct datagram){.received_us = now_us,
+                                             .time_us = now_us + 6 * SECOND_US,
+                                             .scan = 13 + i,
+                                             .sensor_id = 9,
+                                             .num_plots = 1,
+                                             .sigma_m = 20.0f});
+    }
+}
+
 static void run_attack_and_print_gap_and_delay(struct live *live, int64_t interval_us,
                                                attacker *attack, const char *what)
 {
@@ -377,53 +427,70 @@ static void run_attack_and_print_gap_and_delay(struct live *live, int64_t interv
     node_core_close(live->core);
 }
 
-/* Each attack compared with the radar alone: gaps and delays are hardly longer. */
-static void check_attacks_are_harmless(int64_t interval_us)
+struct attack {
+    attacker *attack;
+    const char *what;
+};
+
+/* Each attack compared with the radar alone: gaps are hardly longer, delays by late_max_us. */
+static void check_attacks_are_harmless(const struct attack *attacks, unsigned count, int64_t from_s,
+                                       int64_t interval_us, int64_t late_max_us)
 {
-    static const struct {
-        attacker *attack;
-        const char *what;
-    } attacks[] = {{attack_with_120_datagrams_of_crowded_scans, "120 datagrams, crowds"},
-                   {attack_with_120_scans_without_target_plots, "120 datagrams, empty"},
-                   {attack_with_a_scan_ahead_each_3_s, "1 datagram each 3 s"},
-                   {attack_with_eight_scans_an_hour_ahead, "8 datagrams"},
-                   {attack_with_polar_scans_of_its_number, "120 polar, in its number"},
-                   {attack_with_targetless_scan_after_each_of_radar, "1 after each, empty"}};
     static struct live alone, live;
 
+    attack_s = from_s;
+    end_s = from_s + (interval_us < 10 * SECOND_US ? 60 : 300);
     print_message("a scan each %.2f s\n", (double)interval_us / 1e6);
     run_attack_and_print_gap_and_delay(&alone, interval_us, attack_with_nothing, "nobody");
     assert_true(alone.found_us > 0);
-    for (unsigned i = 0; i < sizeof attacks / sizeof attacks[0]; i++) {
+    for (unsigned i = 0; i < count; i++) {
         run_attack_and_print_gap_and_delay(&live, interval_us, attacks[i].attack, attacks[i].what);
         assert_true(live.gap_us <= alone.gap_us + 1500000);
-        assert_true(live.found_us > 0 && live.found_us <= alone.found_us + SECOND_US);
+        assert_true(live.found_us > 0 && live.found_us <= alone.found_us + late_max_us);
     }
 }
+
+static const struct attack of_newcomers[] = {
+    {attack_with_120_datagrams_of_crowded_scans, "120 datagrams, crowds"},
+    {attack_with_120_scans_without_target_plots, "120 datagrams, empty"},
+    {attack_with_a_scan_ahead_each_3_s, "1 datagram each 3 s"},
+    {attack_with_eight_scans_an_hour_ahead, "8 datagrams"},
+    {attack_with_polar_scans_of_its_number, "120 polar, in its number"},
+    {attack_with_targetless_scan_after_each_of_radar, "1 after each, empty"}};
+static const struct attack of_one_heard[] = {
+    {attack_of_one_heard_with_120_scans_without_target_plots, "heard, 120 empty"},
+    {attack_of_one_heard_with_a_scan_6_s_ahead_each_2_s, "heard, 6 s ahead"}};
+#define COUNT_OF(attacks) (sizeof(attacks) / sizeof *(attacks))
 
 static void attacks_do_not_disturb_a_fast_radar(void **state)
 {
     (void)state;
-    attack_s = 120;
-    end_s = 180;
-    check_attacks_are_harmless(50000);
+    check_attacks_are_harmless(of_newcomers, COUNT_OF(of_newcomers), 120, 50000, SECOND_US);
 }
 
 static void attacks_do_not_disturb_a_slow_radar(void **state)
 {
     (void)state;
-    attack_s = 120;
-    end_s = 180;
-    check_attacks_are_harmless(2500000);
+    check_attacks_are_harmless(of_newcomers, COUNT_OF(of_newcomers), 120, 2500000, SECOND_US);
 }
 
 /* A radar of 20 s is silent between its scans for more than half of jump_max_s. */
 static void attacks_do_not_disturb_a_radar_of_20_s(void **state)
 {
     (void)state;
-    attack_s = 600;
-    end_s = 900;
-    check_attacks_are_harmless(20000000);
+    check_attacks_are_harmless(of_newcomers, COUNT_OF(of_newcomers), 600, 20000000, SECOND_US);
+}
+
+static void attacks_of_one_who_was_heard_for_long_do_not_disturb(void **state)
+{
+    static const int64_t intervals_us[] = {50000, 2500000, 20000000};
+
+    (void)state;
+    for (unsigned i = 0; i < COUNT_OF(intervals_us); i++) {
+        /* its plots in one spot are of objects that the radar seldom sees: evidence is asked for */
+        check_attacks_are_harmless(of_one_heard, COUNT_OF(of_one_heard), 600, intervals_us[i],
+                                   SECOND_US + 2 * intervals_us[i]);
+    }
 }
 
 /* Two senders are counted once, however often they alternate. */
@@ -467,6 +534,7 @@ int main(void)
         cmocka_unit_test(attacks_do_not_disturb_a_fast_radar),
         cmocka_unit_test(attacks_do_not_disturb_a_slow_radar),
         cmocka_unit_test(attacks_do_not_disturb_a_radar_of_20_s),
+        cmocka_unit_test(attacks_of_one_who_was_heard_for_long_do_not_disturb),
         cmocka_unit_test(scans_of_two_senders_of_one_number_are_warned_of_once),
     };
 
