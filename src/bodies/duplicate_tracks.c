@@ -16,14 +16,6 @@
 #include "policy.h"
 #include "rhotrack/detail/approx.h"
 
-/* True where a track goes on if it is of the other's target: one that was confirmed, the first. */
-static int is_older(const struct rho_tracker *tracker, unsigned row, unsigned other)
-{
-    const int is_known = tracker->tracks[row].was_confirmed,
-              is_other_known = tracker->tracks[other].was_confirmed;
-    return is_known != is_other_known ? is_known : row < other;
-}
-
 /*
  * True where a younger track may see what an older one has lost: both were never seen at once, and
  * a turn explains their velocities.
@@ -53,13 +45,15 @@ static float distance_m(const struct rho_look *look, unsigned older, unsigned yo
                : apart_m;
 }
 
-/* Takes an older track as the nearest one, where it is. */
+/* Takes an older track as the nearest one, where it is; one that was confirmed counts as older. */
 static void compare_older(const struct rho_look *look, unsigned row, unsigned older,
                           unsigned *nearest, float *least_m)
 {
-    const struct rho_tracker *tracker = look->tracker;
+    const struct rho_track *tracks = look->tracker->tracks;
     if (older == RHO_NO_ROW || older == row || older == *nearest ||
-        !is_older(tracker, older, row) || !rho_bodies_may_own(look, older)) {
+        (tracks[older].was_confirmed != tracks[row].was_confirmed ? tracks[row].was_confirmed
+                                                                  : older > row) ||
+        !rho_bodies_may_own(look, older)) {
         return;
     }
     const float apart_m = distance_m(look, older, row);

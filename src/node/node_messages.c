@@ -52,14 +52,6 @@ const char *rho_node_channel(const struct rho_node *node, uint16_t part)
     return of < peaks ? RHO_MESSAGE_TRACK_LIST_CHANNEL : RHO_MESSAGE_PEAK_LIST_CHANNEL;
 }
 
-static enum rho_status publish_answer(const struct rho_node_answer *answer, uint8_t *buffer,
-                                      size_t capacity, size_t *size)
-{
-    return answer->is_setting
-               ? rho_message_setting_answer_encode(&answer->setting, buffer, capacity, size)
-               : rho_message_command_answer_encode(&answer->command, buffer, capacity, size);
-}
-
 static enum rho_status publish_events(const struct rho_node *node, uint8_t *buffer, size_t capacity,
                                       size_t *size)
 {
@@ -96,7 +88,10 @@ enum rho_status rho_node_publish(const struct rho_node *node, uint16_t part, uin
         return RHO_ERROR_VALUE;
     }
     if (RHO_MAX_COMMANDS > 0 && of < num_answers(node)) {
-        return publish_answer(&NODE_OPERATOR(node)->answers[of], buffer, capacity, size);
+        const struct rho_node_answer *answer = &NODE_OPERATOR(node)->answers[of];
+        return answer->is_setting
+                   ? rho_message_setting_answer_encode(&answer->setting, buffer, capacity, size)
+                   : rho_message_command_answer_encode(&answer->command, buffer, capacity, size);
     }
     of -= num_answers(node);
     peaks = rho_publish_num_parts(&node->report);

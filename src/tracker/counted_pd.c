@@ -107,20 +107,15 @@ static int is_at_rest(const struct rho_look *look, const struct rho_track *track
                         (p[RHO_AT(RHO_VX, RHO_VX)] + p[RHO_AT(RHO_VY, RHO_VY)]);
 }
 
-/* P_D at a place, at most `own`. */
-static float pd_at(const struct rho_look *look, struct place at, float own)
+/* P_D of a visible target at the track's place; of one at rest its own, if that is less. */
+static float pd_at(const struct rho_look *look, struct place at, const struct rho_track *track,
+                   int rests)
 {
+    const float own = rests ? 1.0f - track->rest_miss : 1.0f;
     const float ratio =
         rho_larger((1.0f + at.ring->excess) * (1.0f + at.octant->excess), PLACE_LEAST);
     const float there = ratio * look->pd, pd = own < there ? own : there;
     return pd < look->pd || pd > look->pd ? limit_pd(look->tracker, stated_pd(look), pd) : pd;
-}
-
-/* P_D of a visible target at the track's place; of one at rest its own, if that is less. */
-static float pd_of(const struct rho_look *look, const struct rho_track *track)
-{
-    const float own = is_at_rest(look, track) ? 1.0f - track->rest_miss : 1.0f;
-    return pd_at(look, place_of(look, track), own);
 }
 
 int rho_pd_miss_at_rest(const struct rho_look *look, const struct rho_track *track,
@@ -129,7 +124,7 @@ int rho_pd_miss_at_rest(const struct rho_look *look, const struct rho_track *tra
     if (!is_at_rest(look, track) || !is_pd_learned(look)) {
         return 0;
     }
-    const float moving = 1.0f - pd_at(look, place_of(look, track), 1.0f);
+    const float moving = 1.0f - pd_at(look, place_of(look, track), track, 0);
     *miss = (struct rho_notch_look){.pd = 1.0f - moving / rho_larger(track->rest_miss, moving),
                                     .rest_mps = 0.5f * REST_SHARE * look->tracker->config.v_max_mps,
                                     .may_stand = 1};
@@ -138,7 +133,9 @@ int rho_pd_miss_at_rest(const struct rho_look *look, const struct rho_track *tra
 
 struct detection rho_pd_detection(const struct rho_look *look, const struct rho_track *track)
 {
-    const float pd = is_pd_learned(look) ? pd_of(look, track) : look->pd;
+    const float pd = is_pd_learned(look)
+                         ? pd_at(look, place_of(look, track), track, is_at_rest(look, track))
+                         : look->pd;
     return pd < look->pd || pd > look->pd ? (struct detection){rho_log(pd), rho_log(1.0f - pd)}
                                           : (struct detection){look->log_pd, look->log_miss};
 }
@@ -173,7 +170,7 @@ void rho_pd_count_place(const struct rho_look *look, struct rho_track *track, fl
     if (teaches_place(look, track)) {
         const struct place at = place_of(look, track);
         const int rests = is_at_rest(look, track);
-        const float pd = pd_at(look, at, rests ? 1.0f - track->rest_miss : 1.0f);
+        const float pd = pd_at(look, at, track, rests);
         const float hit = rho_larger(1.0f - (1.0f - track->seen_share * pd) / ratio, 0.0f);
         if (rests) {
             track->rest_miss += visible * (1.0f - hit - track->rest_miss) / REST_LOOKS;
