@@ -363,7 +363,7 @@ static void attack_with_targetless_scan_after_each_of_radar(struct live *live, i
     }
 }
 
-/* ---- strangers who were heard for five minutes before ----------------------------------------- */
+/* ---- strangers who were heard for five minutes before ---------------------------------------- */
 
 /* 13 scans of sensor 9 in the five minutes before the attack, with a plot each: heard for long. */
 static void be_heard_for_five_minutes(struct live *live, int64_t until_us)
@@ -487,7 +487,7 @@ static void attacks_of_one_who_was_heard_for_long_do_not_disturb(void **state)
 
     (void)state;
     for (unsigned i = 0; i < COUNT_OF(intervals_us); i++) {
-        /* its plots in one spot are of objects that the radar seldom sees: evidence is asked for */
+        /* its plots in one spot are objects that the radar seldom sees: evidence is asked for */
         check_attacks_are_harmless(of_one_heard, COUNT_OF(of_one_heard), 600, intervals_us[i],
                                    SECOND_US + 2 * intervals_us[i]);
     }
