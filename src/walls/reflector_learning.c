@@ -31,8 +31,6 @@ enum rho_status rho_reflector_learning_init(struct rho_reflector_learning *learn
     return RHO_OK;
 }
 
-/* Places on a line */
-
 static void place_on_line(const struct rho_learned_reflector *line, float along_m, float *x_m,
                           float *y_m)
 {
@@ -333,9 +331,12 @@ static void forget_line(struct rho_learned_reflector *line)
  * one, unless the tracker knows that wall already.
  */
 static void judge_line(struct rho_reflector_learning *learning, const struct rho_tracker *tracker,
-                       struct rho_learned_reflector *line)
+                       const struct rho_sensor *sensor, struct rho_learned_reflector *line)
 {
     const float sigma_m2 = line->sigma_m * line->sigma_m;
+    float along_m;
+    const float sensor_m =
+        off_line_m(line, sensor ? sensor->x_m : 0.0f, sensor ? sensor->y_m : 0.0f, &along_m);
     if (line->witnesses_against > line->witnesses_for + 1) {
         forget_line(line);
         return;
@@ -343,12 +344,14 @@ static void judge_line(struct rho_reflector_learning *learning, const struct rho
     /*
      * The line must be as precise as tracks' places are, and the distances at which witnesses
      * passed must spread more than errors explain: two lanes mirror one another at one distance,
-     * but for errors and for the cars' places in their lanes.
+     * but for errors and for the cars' places in their lanes. A line through the sensor is no wall:
+     * what it sees along one is nobody's image.
      */
     if (!line->is_taken || line->is_used || line->witnesses_for < WALL_WITNESSES ||
         line->witnesses_for < WALL_WITNESSES * line->witnesses_against ||
         line->late_ones < WALL_LATE_ONES ||
         !(line->distance_m2 >= ERROR_SIGMAS * ERROR_SIGMAS * (line->off_m2 + sigma_m2)) ||
+        !(sensor_m * sensor_m > ERROR_SIGMAS * ERROR_SIGMAS * sigma_m2) ||
         !(line_variance_at(line, line->from_m) <= sigma_m2) ||
         !(line_variance_at(line, line->to_m) <= sigma_m2)) {
         return;
@@ -452,7 +455,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     learning->next_line = (learning->next_line + 1u) % RHO_LEARNED_REFLECTORS;
     unsigned num_used = 0;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
-        judge_line(learning, tracker, &learning->lines[i]);
+        judge_line(learning, tracker, observation.sensor, &learning->lines[i]);
         num_used += learning->lines[i].is_used;
     }
     if (!has_walls && num_used == 0) {
@@ -462,8 +465,6 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     learning->num_used = (uint16_t)(count - learning->num_told);
     return rho_tracker_set_reflectors(tracker, walls, count);
 }
-
-/* Objects of unknown origin */
 
 static int is_sound_line(const struct rho_learned_reflector *line)
 {

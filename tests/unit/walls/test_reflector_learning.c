@@ -275,6 +275,27 @@ static void a_formation_is_not_taken_for_a_wall(void **state)
     assert_true(most >= 4);
 }
 
+/* Cars on both sides of the radar that mirror one another, lane by lane: what a wall would show. */
+static void a_line_through_the_radar_is_not_taken_for_a_wall(void **state)
+{
+    struct rho_reflector wall;
+    struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
+    unsigned most = 0;
+    (void)state;
+    prepare_tracker(4);
+    radar.y_m = (float)WALL_M;
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+    for (int k = 0; k < 1500; k++) {
+        add_traffic_plots(k, 0.9);
+        step_tracker_and_learning(k);
+        for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+            most = learning.lines[i].witnesses_for > most ? learning.lines[i].witnesses_for : most;
+        }
+        assert_int_equal(count_walls(&wall), 0);
+    }
+    assert_true(most >= 8);
+}
+
 static void a_car_behind_a_learned_wall_is_tracked(void **state)
 {
     unsigned found = 0;
@@ -520,6 +541,7 @@ int main(void)
         cmocka_unit_test(cars_in_two_lanes_are_not_taken_for_a_wall),
         cmocka_unit_test(a_rail_beside_two_lanes_is_learned),
         cmocka_unit_test(a_formation_is_not_taken_for_a_wall),
+        cmocka_unit_test(a_line_through_the_radar_is_not_taken_for_a_wall),
         cmocka_unit_test(a_car_behind_a_learned_wall_is_tracked),
         cmocka_unit_test(configured_walls_stay_and_are_not_learned_again),
         cmocka_unit_test(a_wall_in_line_with_a_configured_one_is_learned_behind_a_gap),
