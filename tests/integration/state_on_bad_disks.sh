@@ -245,4 +245,27 @@ check 'writable and damaged: both are set aside' test "$(ls disk/state | grep da
 check 'writable and damaged: and written anew' are_saved
 end_node
 check 'writable and damaged: ends well' exits 0
+
+# ---- the end: a disk that is slow for two seconds, and a snapshot of many sensors ----
+start --snapshot disk/state/snapshot --clutter-map disk/state/map
+touch slow stamp
+(sleep 2 && rm slow) &
+end_node
+check 'slow at the end: ends well' exits 0
+check 'slow at the end: the snapshot is written' is_newer disk/state/snapshot
+check 'slow at the end: the clutter map, too' is_newer disk/state/map
+start --snapshot here.snapshot
+python3 - >many.csv <<'PYTHON'
+print("t_s,sensor_id,x_m,y_m,sigma_m")
+for sensor in range(100, 140):
+    print(f"{sensor / 1000},{sensor},{sensor * 100},5000,10")
+PYTHON
+run publish many.csv
+end_node
+check '40 unknown numbers: ends well' exits 0
+check '40 unknown numbers: the snapshot has 40 windows, mostly empty' test \
+    "$(stat -c %s here.snapshot)" -gt $((4 * 1024 * $(du -k here.snapshot | cut -f 1)))
+start --snapshot here.snapshot
+end_node
+check '40 unknown numbers: its successor goes on from it' test "$(said anew)" -eq 0
 finish

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/signalfd.h>
@@ -43,7 +44,8 @@ enum {
     RESTARTS_SAID = 8,    /* most sensor restarts reported within WARNING_US */
     MISSING_US = 3000000, /* a missing scan counts as lost after this long */
     END_US = 350000,      /* longest wait for outputs (print, log) at the end */
-    END_MOST_US = 500000  /* longest time from the signal to end until the process exits */
+    END_MOST_US = 500000, /* longest time from the signal to end until the process exits */
+    SAVES_MOST = 20       /* so often as long again, while state files are written */
 };
 
 /* No message for so long after the start is told: longer than most radars' turns. */
@@ -78,6 +80,7 @@ struct node {
     struct scan_interval_hint plots; /* scan intervals of the first HINT_SCANS scans */
     /* signal descriptors: `signals` of SIGTERM and SIGINT, `hang_ups` of SIGHUP */
     int signals, hang_ups;
+    atomic_bool is_saving;     /* at the end: state files are written */
     bool has_terminal;         /* the node was started from a terminal, and ends with it */
     int64_t status_us, end_us; /* monotonic times: next status; end of --for */
     int64_t finish_us;         /* monotonic time until which outputs are waited for at the end */
@@ -188,11 +191,13 @@ static void restore_state(struct node *node, const struct command_line *line)
 
 static void save_state_at_end(struct node *node)
 {
+    atomic_store(&node->is_saving, true);
     const bool is_snapshot_saved = state_saver_save_at_end(&node->snapshot);
 
     if (!state_saver_save_at_end(&node->clutter_map) || !is_snapshot_saved) {
         node->exit_code = EXIT_RUNTIME;
     }
+    atomic_store(&node->is_saving, false);
 }
 
 /* ---- Calls of the core ---- */
@@ -469,26 +474,30 @@ static void handle_hangup(struct node *node)
 }
 
 /*
- * Thread that exits the process END_MOST_US after the signal to end, even where the main thread is
- * blocked by a disk or a network.
+ * Thread that exits the process END_MOST_US after the signal to end, or later while state files
+ * are written, even where the main thread is blocked by a disk or a network.
  */
-static void *exit_when_end_takes_too_long(void *signals)
+static void *exit_when_end_takes_too_long(void *context)
 {
     const struct timespec left = {0, END_MOST_US * 1000L};
-    struct pollfd here = {.fd = *(const int *)signals, .events = POLLIN};
+    struct node *node = context;
+    struct pollfd here = {.fd = node->signals, .events = POLLIN};
 
     while (poll(&here, 1, -1) <= 0) {
     }
     nanosleep(&left, NULL);
+    for (int i = 0; i < SAVES_MOST && atomic_load(&node->is_saving); i++) {
+        nanosleep(&left, NULL);
+    }
     error_lines_write_directly("rhotrack: an output does not end in time; it ends without it\n");
     _exit(EXIT_RUNTIME);
 }
 
-static void start_end_watchdog(int *signals)
+static void start_end_watchdog(struct node *node)
 {
     pthread_t thread;
 
-    if (pthread_create(&thread, NULL, exit_when_end_takes_too_long, signals) == 0) {
+    if (pthread_create(&thread, NULL, exit_when_end_takes_too_long, node) == 0) {
         pthread_detach(thread);
     }
 }
@@ -771,7 +780,7 @@ int command_node(struct command_line *line)
     restore_state(&node, line);
     node.service = service_open();
     open_signal_descriptors(&node);
-    start_end_watchdog(&node.signals);
+    start_end_watchdog(&node);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     node.pages = page_server_open(line->metrics, "/metrics",
                                   "text/plain; version=0.0.4; charset=utf-8", write_metrics, &node);

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/common.h"
 #include "base/state_file.h"
@@ -17,6 +18,15 @@
 
 /* ---- Save ---- */
 
+static bool is_zeros(const uint8_t *bytes, size_t length)
+{
+    return length > 0 && bytes[0] == 0 && memcmp(bytes, bytes + 1, length - 1) == 0;
+}
+
+/*
+ * Windows are mostly empty: what is zeros becomes a hole of the file, which costs the disk neither
+ * time nor room.
+ */
 static bool write_snapshot(FILE *file, const void *context)
 {
     struct pipeline *pipeline = *(struct pipeline *const *)context;
@@ -29,9 +39,11 @@ static bool write_snapshot(FILE *file, const void *context)
     do {
         errno = EINVAL; /* where the library refuses the objects */
         is_good = rho_snapshot_save(parts, num_parts, at, piece, sizeof piece, &length) == RHO_OK &&
-                  fwrite(piece, 1, length, file) == length;
+                  (is_zeros(piece, length) ? fseeko(file, (off_t)length, SEEK_CUR) == 0
+                                           : fwrite(piece, 1, length, file) == length);
         at += length;
     } while (is_good && length > 0);
+    is_good = is_good && fflush(file) == 0 && ftruncate(fileno(file), (off_t)at) == 0;
     free(parts);
     return is_good;
 }
