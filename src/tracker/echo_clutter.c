@@ -25,13 +25,11 @@
 
 static float sensor_range_max(const struct rho_look *look)
 {
-    if (look->sensor) {
-        return look->sensor->range_max_m;
-    }
     const struct rho_extent *extent = &look->tracker->extent;
     const float width_m = rho_extent_width_m(extent, RHO_CLUTTER_SIDE_MIN_M);
     const float height_m = rho_extent_height_m(extent, RHO_CLUTTER_SIDE_MIN_M);
-    return 0.5f * rho_sqrt(width_m * width_m + height_m * height_m);
+    return look->sensor ? look->sensor->range_max_m
+                        : 0.5f * rho_sqrt(width_m * width_m + height_m * height_m);
 }
 
 /* Normal density of a range rate's deviation, over the density of clutter uniform in all rates. */
@@ -152,12 +150,10 @@ static float strobe_density(const struct rho_look *look, unsigned bin, float plo
                             float range_max_m)
 {
     const struct rho_clutter_map *map = &look->tracker->clutter_map;
-    const unsigned bins[3] = {bin == 0 ? RHO_ECHO_STROBES - 1u : bin - 1u, bin,
-                              bin + 1u == RHO_ECHO_STROBES ? 0 : bin + 1u};
     unsigned count = 0, ranges = 0;
-    for (int k = 0; k < 3; k++) {
-        count += map->strobe_count[bins[k]];
-        ranges |= map->strobe_ranges[bins[k]];
+    for (unsigned k = bin + RHO_ECHO_STROBES - 1u; k <= bin + RHO_ECHO_STROBES + 1u; k++) {
+        count += map->strobe_count[k % RHO_ECHO_STROBES];
+        ranges |= map->strobe_ranges[k % RHO_ECHO_STROBES];
     }
     if (!((float)count > STROBE_PLOTS_MIN)) {
         return 0.0f; /* most directions have too few plots for a strobe */
@@ -260,10 +256,13 @@ void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look
     rho_work_begin_phase(tracker, work, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
         struct rho_echo *echo = &map->echoes[place];
+        if (echo->hits == 0) {
+            continue;
+        }
         echo->was_looked_at = 0;
         echo->plot = -1;
         echo->weight = 0.0f;
-        if (echo->hits == 0 || echo->sensor_id != scan->sensor_id ||
+        if (echo->sensor_id != scan->sensor_id ||
             !rho_measurement_covers(look->sensor, scan->sector_from_rad, scan->sector_to_rad,
                                     echo->x_m, echo->y_m) ||
             (operators > 0 && is_operators_echo(tracker, echo))) {
