@@ -14,7 +14,7 @@
 #include "io/csv/guess_origin.h"
 #include "settings/initiation_methods.h"
 
-enum { NUM_OPTIONS = 30, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 31, RUNS_MAX = 1000000 };
 
 /* All options. Letters identify options inside the program; users can type -o and -h alone. */
 static const struct {
@@ -58,6 +58,7 @@ static const struct {
     {'T', "for", "SECONDS", "ends by itself"},
     {'A', "commands", NULL, "takes an operator's commands, of `rhotrack command` (RHO_COMMANDS)"},
     {'F', "commands-from", "ADDRESS,...", "takes them from these IPv4 addresses alone"},
+    {'2', "standby", NULL, "publishes while no other node does"},
     {'E', "metrics", "PORT", "http://127.0.0.1:PORT/metrics: counters, for Prometheus"},
     {'h', "help", NULL, "this text"},
 };
@@ -161,6 +162,9 @@ static bool store_live_option(struct command_line *line, char letter, char *argu
         return true;
     case 'F':
         line->commanders = argument;
+        return true;
+    case '2':
+        line->standby = true;
         return true;
     case 'E':
         line->metrics = (uint16_t)parse_whole_number("metrics", argument, 1, UINT16_MAX);

@@ -29,6 +29,7 @@
 #include "live/node_sensor_warnings.h"
 #include "live/prometheus_metrics.h"
 #include "live/service_notify.h"
+#include "live/standby.h"
 #include "live/state_saver.h"
 #include "live/stderr_time_stamps.h"
 #include "pipeline/pipeline.h"
@@ -75,6 +76,8 @@ struct node {
     struct duplicate_senders senders;
     struct command_gate gate;
     struct service service;
+    struct standby standby;
+    uint32_t listed_steps;           /* counter of steps at the last list of tracks that was sent */
     int64_t start_us;                /* monotonic time of the start */
     bool is_silence_told;            /* a line says that no message was heard since the start */
     struct scan_interval_hint plots; /* scan intervals of the first HINT_SCANS scans */
@@ -209,6 +212,12 @@ static void send_and_log_message(void *context, const char *channel, const uint8
 
     command_gate_note_answer(&node->gate, channel, data, size,
                              node->print.is_terminal ? NULL : stderr);
+    if (!standby_may_send(&node->standby, monotonic_clock_us())) {
+        return;
+    }
+    if (strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0) {
+        node->listed_steps = node_core_node_counters(node->core)->steps;
+    }
     /* failures are counted by the transport */
     (void)transport_send(node->transport, channel, data, size);
     if (node->log) {
@@ -518,6 +527,7 @@ static void wait_and_serve_descriptors(struct node *node)
                              {.fd = transport_descriptor(node->transport), .events = POLLIN}};
     int64_t due_us = earlier_us(earlier_us(node->status_us, node->end_us),
                                 earlier_us(node_print_due_us(&node->print), node->service.due_us));
+    due_us = earlier_us(due_us, standby_due_us(&node->standby));
     int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - monotonic_clock_us();
 
     if (core_due_us != INT64_MAX) {
@@ -579,6 +589,16 @@ static void update_scan_interval_hint(struct node *node, const struct transport_
     }
 }
 
+static void hear_other_node(struct node *node, const struct transport_message *message,
+                            int64_t now_us, FILE *to)
+{
+    int32_t epoch;
+
+    if (!message->sender.is_own && standby_hear(&node->standby, message, now_us, &epoch, to)) {
+        node_core_avoid_epoch(node->core, epoch);
+    }
+}
+
 /*
  * Passes a received message to the core. The log gets channels that begin with RHO_, without
  * commands that are refused here, as a replay would do them; messages that the node published are
@@ -586,15 +606,21 @@ static void update_scan_interval_hint(struct node *node, const struct transport_
  */
 static void pass_message_to_core_and_log(struct node *node, const struct transport_message *message)
 {
-    duplicate_senders_note_message(&node->senders, message, monotonic_clock_us(),
-                                   node->print.is_terminal ? NULL : stderr);
+    const int64_t now_us = monotonic_clock_us();
+    FILE *to = node->print.is_terminal ? NULL : stderr;
+
+    standby_note_message(&node->standby, message, now_us);
+    if (is_output_channel(message->channel) && node->standby.is_on) {
+        hear_other_node(node, message, now_us, to);
+        return;
+    }
+    duplicate_senders_note_message(&node->senders, message, now_us, to);
     if (is_output_channel(message->channel)) {
         return;
     }
     error_lines_set_time(message->received_us);
     node->taken++;
-    if (!command_gate_admits(&node->gate, message, node_core_settings(node->core),
-                             node->print.is_terminal ? NULL : stderr)) {
+    if (!command_gate_admits(&node->gate, message, node_core_settings(node->core), to)) {
         return;
     }
     update_scan_interval_hint(node, message);
@@ -645,6 +671,7 @@ static void write_metrics(FILE *out, void *context)
         .transport = node->transport,
         .gate = &node->gate,
         .parameters = node->parameters,
+        .is_publishing = standby_may_send(&node->standby, monotonic_clock_us()),
         .messages_in = node->taken,
         .losses = collect_losses(node),
         .pages_sent = page_server_num_sent(node->pages),
@@ -683,10 +710,24 @@ static void tell_service_manager(struct node *node, int64_t now_us)
     char status[400];
 
     if (now_us >= node->service.due_us) {
-        snprintf(status, sizeof status, "%s; %" PRIu64 " messages in, %" PRIu32 " steps",
-                 *place ? place : transport_url(node->transport), node->taken,
+        snprintf(status, sizeof status, "%s; %s%" PRIu64 " messages in, %" PRIu32 " steps",
+                 *place ? place : transport_url(node->transport),
+                 node->standby.is_heard ? "another node publishes; " : "", node->taken,
                  node_core_node_counters(node->core)->steps);
         service_tell(&node->service, now_us, status);
+    }
+}
+
+/* Where this node begins to publish it tells its tracks and status at once. */
+static void publish_where_others_are_silent(struct node *node, int64_t now_us)
+{
+    if (!standby_take_turn(&node->standby, node->is_waiting, now_us,
+                           node->print.is_terminal ? NULL : stderr)) {
+        return;
+    }
+    node->status_us = now_us;
+    if (node_core_node_counters(node->core)->steps != node->listed_steps) {
+        node_core_send_tracks(node->core);
     }
 }
 
@@ -698,6 +739,7 @@ static void report_save_and_end_when_due(struct node *node)
 {
     int64_t now_us = monotonic_clock_us();
 
+    publish_where_others_are_silent(node, now_us);
     if (now_us >= node->status_us) {
         node->status_us += STATUS_US;
         if (node->status_us <= now_us) { /* the program was suspended for a while */
@@ -766,6 +808,9 @@ int command_node(struct command_line *line)
         fail(EXIT_USAGE, "node: %s would overwrite the input", line->log);
     }
     node.gate = command_gate_open(line->commands, line->commanders, line->lcm);
+    if (line->standby) {
+        node.standby = standby_open(node.status_us, line->lcm);
+    }
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
     check_state_files(line);

@@ -32,6 +32,7 @@ struct command_line {
     bool print, loop;         /* --print, --loop */
     bool commands;            /* --commands */
     const char *commanders;   /* --commands-from; NULL where not given */
+    bool standby;             /* --standby */
     uint16_t metrics;         /* --metrics, a port; 0 where not given */
     uint64_t seed;            /* --seed; default 1 */
     long runs;                /* --runs; 0 where not given */

@@ -121,7 +121,7 @@ static const struct command commands[] = {
      "where OUT ends with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLRTAFEmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
+     "lpLRTAF2EmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n> and\n"
      "RHO_DIRECTIONS_<n>, and publishes RHO_TRACKS and RHO_PEAKS at each scan, with body_max_m\n"
      "RHO_BODIES, and once a second RHO_STATUS, RHO_WORK and RHO_SENSORS,\n"
@@ -139,6 +139,10 @@ static const struct command commands[] = {
      "Areas, settings and frozen tracks of earlier commands in the snapshot are named, and "
      "without\n"
      "--commands left out.\n"
+     "Of two nodes with --standby one publishes; the other one does, with its own epoch, where "
+     "that "
+     "is\n"
+     "silent for two seconds.\n"
      "A log goes into files of log_file_mb or log_file_s, of which the newest log_files stay; "
      "SIGHUP\n"
      "opens its name anew. --metrics tells counters and times to programs of this machine.\n"

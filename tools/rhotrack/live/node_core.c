@@ -108,6 +108,28 @@ static void send_messages(const struct node_core *core)
     }
 }
 
+void node_core_avoid_epoch(struct node_core *core, int32_t epoch)
+{
+    struct rho_node *node = core->pipeline.node;
+
+    node->epoch += node->epoch == epoch ? (epoch == INT32_MAX ? -epoch : 1) : 0;
+}
+
+void node_core_send_tracks(const struct node_core *core)
+{
+    const struct rho_node *node = core->pipeline.node;
+    uint8_t buffer[RHO_UDPM_MAX_DATAGRAM];
+    size_t size;
+
+    for (uint16_t part = 0; node->counters.steps > 0 && part < rho_publish_num_parts(&node->report);
+         part++) {
+        if (rho_publish_tracks(&node->report, node->step, node->epoch, part, buffer, sizeof buffer,
+                               &size) == RHO_OK) {
+            core->events.send(core->events.context, RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer, size);
+        }
+    }
+}
+
 static void send_show_messages(struct node_core *core, enum rho_node_due done)
 {
     const struct pipeline_show_output output = {core->events.context, core->events.send};

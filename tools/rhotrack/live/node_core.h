@@ -82,6 +82,12 @@ void node_core_tick(struct node_core *core, int64_t now_us);
 /* Reception time at which node_core_tick has a step to make; INT64_MAX: not before a message. */
 int64_t node_core_due_us(const struct node_core *core);
 
+/* Another node's lists have this epoch: the core's have the next one, if theirs was the same. */
+void node_core_avoid_epoch(struct node_core *core, int32_t epoch);
+
+/* Sends the lists of tracks of the last step, once more or for the first time; none before one. */
+void node_core_send_tracks(const struct node_core *core);
+
 /* Steps all scans that are held back, at the end of the input. */
 void node_core_flush(struct node_core *core);
 

@@ -422,6 +422,8 @@ void prometheus_metrics_write(FILE *out, const struct prometheus_metrics_source 
 {
     write_input_counters(out, source);
     write_loss_tallies(out, source);
+    write_single_value(out, "publishing", "gauge", "0: another node publishes (--standby); else 1.",
+                       source->is_publishing);
     write_tracker_counters(out, source);
     write_track_counts(out, source);
     write_times_and_work(out, source);

@@ -20,6 +20,7 @@ struct prometheus_metrics_source {
     const struct transport *transport;
     const struct command_gate *gate;
     const struct parameters *parameters; /* parameters at the start: names of sensors */
+    bool is_publishing;                  /* false: another node does (--standby) */
     uint64_t messages_in;                /* messages received, without those that nodes publish */
     struct node_core_losses losses;      /* losses of the node's inputs and outputs */
     /* answers with this page; refused requests and slow clients */
