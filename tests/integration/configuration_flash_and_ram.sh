@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # make budget: flash and RAM of a configuration, by any compiler; files, compilers and macros that
-# cannot be are refused with their file and line.
+# cannot be are refused with their file and line. Runs beside others.
 root=$(realpath "$(dirname "$0")/../..")
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"

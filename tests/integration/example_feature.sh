@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # tools/gates/example_feature.py builds and runs the worked example of src/DESIGN.md, and goes red
-# for one that is too large, that cannot be applied, or that does not change what it says. Runs
-# beside others.
+# for one that is too large, that cannot be applied, or that does not change what it says.
+# Runs beside others.
 here=$(realpath "$(dirname "$0")")
 # shellcheck source=tests/integration/checks.bash
 . "$here/checks.bash"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # The packages of tools/packaging: each has the version of rhotrack/rhotrack.h and all sources; each
 # is built by its tool where that is to be had, else as its tool would do it; its program tracks. Of
-# the Debian packages lintian finds nothing, and they are installed in a folder.
+# the Debian packages lintian finds nothing, and they are installed in a folder. Runs beside others.
 root=$(realpath "$(dirname "$0")/../..")
 build=$(cd "$root" && realpath -m "${BUILD:-build}")
 # shellcheck source=tests/integration/checks.bash

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Two nodes with --standby on two machines: one publishes, the other one keeps the same tracks, and
 # publishes within three seconds after the first was killed, stopped or cut off; no two lists are
-# ever of one epoch and step.
+# ever of one epoch and step. Runs beside others.
 # shellcheck source=tests/integration/network.bash
 . "$(dirname "$0")/network.bash"
 # shellcheck source=tests/integration/checks.bash
