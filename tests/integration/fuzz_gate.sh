@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # `make fuzz` can fail: each defect seeded in the codec, a reader or the tracker is found within 40
-# s, a hang too, and all pass as they are.
+# s, a hang too, and all pass as they are. Runs beside others.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build}

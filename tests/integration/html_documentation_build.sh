@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # make docs writes the pages without a warning, all examples run, no link is broken; the pages hold
 # each header's functions, each experiment and each document; and broken links are seen.
+# Runs beside others.
 here=$(realpath "$(dirname "$0")")
 root=$(realpath "$here/../..")
 build=$(cd "$root" && realpath -m "${BUILD:-build}")
