@@ -354,6 +354,7 @@ int command_convert(struct command_line *line)
     bool to_map = geojson_path_is_geojson(line->arguments[1]);
 
     parameters_check_together(&line->parameters);
+    output_refuse_other_format(line->arguments[1], "NAME.csv, NAME.lcm, NAME.geojson and NAME.ast");
     if (asterix_track_writer_is_path(line->arguments[1])) {
         asterix_track_writer_check(line->arguments[1], line->covariance);
         convert_tracks_to_asterix(line);

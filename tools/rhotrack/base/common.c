@@ -325,6 +325,20 @@ bool path_ends_with(const char *path, const char *suffix)
     return length >= end && strcasecmp(path + length - end, suffix) == 0;
 }
 
+void output_refuse_other_format(const char *path, const char *known)
+{
+    static const char *const others[] = {
+        ".mcap", ".kml",  ".kmz",     ".gpx", ".json", ".xml", ".pcap", ".pcapng", ".bag", ".db3",
+        ".mat",  ".xlsx", ".parquet", ".h5",  ".npz",  ".shp", ".gpkg", ".zip",    ".gz"};
+
+    for (size_t i = 0; path && i < sizeof others / sizeof *others; i++) {
+        if (path_ends_with(path, others[i])) {
+            fail(EXIT_USAGE, "%s: %s is no format that is written here; there are %s", path,
+                 others[i], known);
+        }
+    }
+}
+
 char *path_join(const char *folder, const char *name)
 {
     size_t length = strlen(folder), bytes = length + strlen(name) + 2;

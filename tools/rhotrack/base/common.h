@@ -102,6 +102,13 @@ bool text_begins_with(const char *text, const char *prefix);
 /* True where a path ends with a suffix, ignoring case: "NAME.LCM" ends with ".lcm". */
 bool path_ends_with(const char *path, const char *suffix);
 
+/*
+ * Exit 2 where an output's name ends as files of another format do, as NAME.kml: it would hold
+ * something else.
+ *   known  the formats that there are, for the message
+ */
+void output_refuse_other_format(const char *path, const char *known);
+
 /* Size of a regular file in bytes; 0 for anything else. */
 uint64_t regular_file_size_or_zero(const char *path);
 

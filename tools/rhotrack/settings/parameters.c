@@ -521,6 +521,11 @@ bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_i
     return find_sensor(parameters, sensor_id) != NULL;
 }
 
+int32_t parameters_lone_sensor_id(const struct parameters *parameters)
+{
+    return parameters->num_sensors == 1 ? parameters->sensors[0].sensor_id : 0;
+}
+
 double parameters_value_of_sensor(const struct parameters *parameters, int32_t sensor_id,
                                   enum sensor_parameter_id id, double otherwise)
 {

@@ -419,6 +419,11 @@ void parameters_print_table(const struct parameters *parameters, FILE *out);
 /* True where a source set any parameter of this sensor. */
 bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id);
 
+/*
+ * The sensor of files that name none: the one that is described, where it is the only one; else 0.
+ */
+int32_t parameters_lone_sensor_id(const struct parameters *parameters);
+
 /* Name of a sensor, NULL: none. A sensor that has only a name does not count as described. */
 const char *parameters_sensor_name(const struct parameters *parameters, int32_t sensor_id);
 

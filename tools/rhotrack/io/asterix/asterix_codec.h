@@ -81,6 +81,20 @@ struct asterix_record {
 bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
                          struct asterix_record *record, struct asterix_error *error);
 
+/* The source that records of a block of CAT001 have from the block's first one. */
+struct asterix_block_source {
+    bool is_given;
+    uint8_t item[2];
+};
+
+/*
+ * Completes a record of CAT001 without its source (I001/010), which radars give in a block's first
+ * record alone. `source` must live as long as the record.
+ *   is_first  it is the block's first record
+ */
+void asterix_record_complete_source(struct asterix_record *record, bool is_first,
+                                    struct asterix_block_source *source);
+
 struct asterix_source {
     bool is_given;
     uint8_t sac, sic; /* system area code and system identification code */

@@ -24,6 +24,8 @@ struct asterix_file {
     uint64_t offset;  /* offset of the buffer in the file, or in all datagrams' contents */
     uint64_t foreign; /* datagrams that do not consist of data blocks */
     uint8_t category;
+    struct asterix_block_source source; /* of the current block */
+    bool is_block_begun;                /* a record of it was read */
     size_t block_end; /* end of the current block in the buffer; equal to `at` between blocks */
     uint64_t records, bytes_skipped, places_skipped;
     /* blocks of categories that are not read, and their records where these are decodable */
@@ -264,6 +266,7 @@ static bool enter_next_wanted_block(struct asterix_file *file)
             file->category = block.category;
             file->at += ASTERIX_HEADER_BYTES;
             file->block_end = file->at + block.size;
+            file->is_block_begun = false;
             return true;
         } else {
             file->others[block.category]++;
@@ -286,6 +289,8 @@ bool asterix_file_next_record(struct asterix_file *file, struct asterix_record *
         }
         if (asterix_record_read(file->category, file->bytes + file->at, file->block_end - file->at,
                                 record, &error)) {
+            asterix_record_complete_source(record, !file->is_block_begun, &file->source);
+            file->is_block_begun = true;
             file->at += record->size;
             file->records++;
             return true;

@@ -6,6 +6,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "io/asterix/asterix_item_lengths.h"
 
@@ -232,6 +233,24 @@ static bool is_cat001_track_record(const struct cursor *cursor)
            (cursor->data[0] >> (BITS - I001_020) & 1) &&
            behind + (cursor->data[0] >> BITS & 1) * 2u < cursor->size &&
            cursor->data[behind + (cursor->data[0] >> BITS & 1) * 2u] >> 7;
+}
+
+void asterix_record_complete_source(struct asterix_record *record, bool is_first,
+                                    struct asterix_block_source *source)
+{
+    if (is_first) {
+        source->is_given = false;
+    }
+    if (record->category != ASTERIX_OLD_PLOTS) {
+        return;
+    }
+    if (record->items[0]) { /* I001/010 of plots and of tracks */
+        source->is_given = true;
+        memcpy(source->item, record->items[0], sizeof source->item);
+    } else if (source->is_given) {
+        record->items[0] = source->item;
+        record->sizes[0] = sizeof source->item;
+    }
 }
 
 bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,

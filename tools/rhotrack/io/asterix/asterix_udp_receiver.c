@@ -25,6 +25,7 @@ bool asterix_udp_receiver_is_url(const char *text)
 /* Processes the records of a data block; false from the first one that cannot be read. */
 static bool process_block_records(struct asterix_scans *scans, const struct asterix_block *block)
 {
+    struct asterix_block_source source = {.is_given = false};
     struct asterix_record record;
     struct asterix_error error;
 
@@ -33,6 +34,7 @@ static bool process_block_records(struct asterix_scans *scans, const struct aste
                                  &error)) {
             return false;
         }
+        asterix_record_complete_source(&record, at == 0, &source);
         asterix_scans_take_record(scans, &record);
     }
     return true;

@@ -48,6 +48,10 @@ struct columns columns_find(const struct table *table)
     if (columns.at[COL_T_S] < 0 && table->frame_rate_hz > 0) {
         columns.at[COL_T_S] = columns.at[COL_FRAME];
     }
+    if (columns.at[COL_RANGE_M] >= 0 && columns.at[COL_AZIMUTH_RAD] < 0) {
+        columns.at[COL_AZIMUTH_RAD] = columns.at[COL_BEARING_RAD];
+        columns.at[COL_BEARING_RAD] = -1;
+    }
     if (columns.at[COL_BEARING_RAD] < 0 && columns.at[COL_ELEVATION_RAD] >= 0 &&
         columns.at[COL_RANGE_M] < 0 && columns.at[COL_X_M] < 0 && columns.at[COL_LAT_DEG] < 0) {
         columns.at[COL_BEARING_RAD] = columns.at[COL_AZIMUTH_RAD];
@@ -103,6 +107,16 @@ double column_radians(enum column_id angle, double degrees)
     return angle == COL_AZIMUTH_RAD || angle == COL_BEARING_RAD
                ? remainder(TURN / 4 - degrees * (TURN / 360), TURN)
                : degrees * DEG_RAD;
+}
+
+void columns_fold_over_zenith(double *elevation_rad, double *azimuth_rad)
+{
+    const double quarter = (double)1.5707964f; /* the float nearest to it, as files may have it */
+
+    if (fabs(*elevation_rad) > quarter) {
+        *elevation_rad = copysign(TURN / 2 - fabs(*elevation_rad), *elevation_rad);
+        *azimuth_rad = remainder(*azimuth_rad + TURN / 2, TURN);
+    }
 }
 
 /* Other names and units. */
@@ -168,6 +182,8 @@ static const struct {
     {"sensor", COL_SENSOR_ID, NUMBER},
     {"radar", COL_SENSOR_ID, NUMBER},
     {"radar_id", COL_SENSOR_ID, NUMBER},
+    {"station", COL_SENSOR_ID, NUMBER},
+    {"station_id", COL_SENSOR_ID, NUMBER},
     {"x", COL_X_M, LENGTH},
     {"y", COL_Y_M, LENGTH},
     {"z", COL_Z_M, LENGTH},
@@ -208,6 +224,10 @@ static const struct {
     {"sensor_y", COL_SENSOR_Y_M, LENGTH},
     {"sensor_lat", COL_SENSOR_LAT_DEG, NUMBER},
     {"sensor_lon", COL_SENSOR_LON_DEG, NUMBER},
+    {"station_lat", COL_SENSOR_LAT_DEG, NUMBER},
+    {"station_lon", COL_SENSOR_LON_DEG, NUMBER},
+    {"station_lat", COL_SENSOR_LAT_DEG, DEGREES},
+    {"station_lon", COL_SENSOR_LON_DEG, DEGREES},
     {"sigma", COL_SIGMA_RAD, SIZE},
     {"sigma_azimuth", COL_SIGMA_AZIMUTH_RAD, SIZE},
 };

@@ -113,7 +113,8 @@ struct columns {
 /*
  * Finds all columns, an azimuth or elevation in degrees where there is none in radians, and the
  * number of the frame where there is no time and the table has a frame rate. Azimuth and elevation
- * without a range are a bearing and its elevation.
+ * without a range are a bearing and its elevation; a bearing with a range, and no azimuth beside it,
+ * is a radar's azimuth.
  */
 struct columns columns_find(const struct table *table);
 
@@ -135,6 +136,12 @@ void columns_refuse_both(const struct columns *columns, enum column_id first,
 void columns_refuse_two_units(const struct columns *columns, enum column_id angle);
 bool columns_has_degrees(const struct columns *columns, enum column_id angle);
 double column_radians(enum column_id angle, double degrees);
+
+/*
+ * A line of sight that an antenna reached over the zenith, as at 92 degrees: the elevation becomes
+ * 88, the azimuth that of the other side. Elevations up to half a turn.
+ */
+void columns_fold_over_zenith(double *elevation_rad, double *azimuth_rad);
 
 /*
  * Renames the columns of a header to the names that the readers use, from any case and with the

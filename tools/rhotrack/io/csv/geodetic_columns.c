@@ -24,7 +24,7 @@ struct kept_radar {
 struct geodetic_columns {
     const struct parameters *parameters;
     struct local_frame *origin; /* frame of the origin; NULL until it is needed */
-    bool is_polar, has_lat;
+    bool is_polar, has_lat, has_sensor_lat;
     /* ring of frames: a further radar replaces the oldest one */
     struct kept_radar radars[RHO_MAX_SENSORS];
     size_t num_radars; /* number of radars ever kept */
@@ -78,7 +78,9 @@ struct geodetic_columns *geodetic_open(const struct table *table,
 
     *geodetic = (struct geodetic_columns){.parameters = parameters,
                                           .is_polar = columns.at[COL_RANGE_M] >= 0,
-                                          .has_lat = columns.at[COL_LAT_DEG] >= 0};
+                                          .has_lat = columns.at[COL_LAT_DEG] >= 0,
+                                          .has_sensor_lat = columns.at[COL_SENSOR_LAT_DEG] >= 0 ||
+                                                            parameters->num_sensors > 0};
     refuse_columns(&columns, geodetic->is_polar);
     need_origin(&columns, parameters, COL_LAT_DEG);
     need_origin(&columns, parameters, COL_SENSOR_LAT_DEG);
@@ -109,6 +111,11 @@ static const struct local_frame *origin_frame(struct geodetic_columns *geodetic)
 bool geodetic_has_places(const struct geodetic_columns *geodetic)
 {
     return geodetic && !geodetic->is_polar && geodetic->has_lat;
+}
+
+bool geodetic_has_sensor_places(const struct geodetic_columns *geodetic)
+{
+    return geodetic && geodetic->has_sensor_lat;
 }
 
 /* Reads latitude, longitude, and height where the row has it; else the height stays as it was. */

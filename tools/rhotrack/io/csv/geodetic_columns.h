@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * geodetic_columns: converts latitudes, longitudes and heights in a file of plots, polar plots or
- * truth to positions in the local frame.
+ * geodetic_columns: converts latitudes, longitudes and heights in a file of plots, polar plots,
+ * bearings or truth to positions in the local frame.
  *
  * lat_deg, lon_deg[, alt_m] replace x_m, y_m[, z_m]; sensor_lat_deg, sensor_lon_deg[, sensor_alt_m]
  * replace sensor_x_m and so on, and azimuths then count from the radar's own north; alt_m of a
@@ -31,6 +31,9 @@ void geodetic_close(struct geodetic_columns *geodetic); /* frees the object; NUL
 
 /* Whether the table has lat_deg and lon_deg as positions of plots or targets; false for NULL. */
 bool geodetic_has_places(const struct geodetic_columns *geodetic);
+
+/* Whether its rows, or the parameters, may give a sensor's place as latitude and longitude. */
+bool geodetic_has_sensor_places(const struct geodetic_columns *geodetic);
 
 /* The functions that follow return false where the row is bad, with the reason set. */
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "io/csv/row_cells.h"
+#include "io/csv/sensor_names.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
 
@@ -27,7 +28,7 @@ bool measurement_row_is_bearings(const struct table *table)
     return has_bearings_alone(&columns);
 }
 
-static void check_bearing_columns(struct columns *columns)
+static void check_bearing_columns(struct columns *columns, const struct parameters *parameters)
 {
     /* Refuses plots by name, rather than with a missing bearing_rad. */
     static const struct {
@@ -46,9 +47,14 @@ static void check_bearing_columns(struct columns *columns)
     columns_need_both(columns, COL_SECTOR_FROM_RAD, COL_SECTOR_TO_RAD);
     columns_refuse_two_units(columns, COL_ELEVATION_RAD);
     (void)columns_need(columns, COL_T_S);
-    (void)columns_need(columns, COL_SENSOR_ID);
-    (void)columns_need(columns, COL_SENSOR_X_M);
-    (void)columns_need(columns, COL_SENSOR_Y_M);
+    if (parameters->num_sensors != 1) {
+        (void)columns_need(columns, COL_SENSOR_ID);
+    }
+    if (parameters->num_sensors == 0 && columns->at[COL_SENSOR_LAT_DEG] < 0) {
+        (void)columns_need(columns, COL_SENSOR_X_M);
+        (void)columns_need(columns, COL_SENSOR_Y_M);
+    }
+    columns_need_both(columns, COL_SENSOR_X_M, COL_SENSOR_Y_M);
     (void)columns_need(columns, COL_BEARING_RAD);
     columns->at[COL_RECEIVED_S] = -1;
 }
@@ -100,11 +106,11 @@ struct measurement_columns measurement_columns_find(const struct table *table,
                                           .is_bearings = kind == RECORD_BEARINGS};
 
     if (columns.is_bearings) {
-        check_bearing_columns(&columns.in_file);
+        check_bearing_columns(&columns.in_file, parameters);
     } else {
-        check_plot_columns(&columns.in_file, needs_sensor && parameters->num_sensors > 0);
-        columns.geodetic = geodetic_open(table, parameters);
+        check_plot_columns(&columns.in_file, needs_sensor && parameters->num_sensors > 1);
     }
+    columns.geodetic = geodetic_open(table, parameters);
     return columns;
 }
 
@@ -220,10 +226,11 @@ static bool read_azimuth(const struct row_reading *reading, enum column_id colum
 }
 
 static bool read_elevation(const struct row_reading *reading, uint32_t *measures,
-                           float *elevation_rad)
+                           float *elevation_rad, float *azimuth_rad)
 {
     const bool is_degrees = columns_has_degrees(&reading->columns->in_file, COL_ELEVATION_RAD);
-    const float limit = is_degrees ? 90.0f : (float)(PI / 2);
+    const float limit = is_degrees ? 180.0f : (float)PI;
+    double folded_rad[2];
 
     if (!row_has_cell(&reading->cells, COL_ELEVATION_RAD)) {
         return true;
@@ -235,6 +242,11 @@ static bool read_elevation(const struct row_reading *reading, uint32_t *measures
     if (is_degrees) {
         *elevation_rad = (float)column_radians(COL_ELEVATION_RAD, (double)*elevation_rad);
     }
+    folded_rad[0] = (double)*elevation_rad;
+    folded_rad[1] = (double)*azimuth_rad;
+    columns_fold_over_zenith(&folded_rad[0], &folded_rad[1]);
+    *elevation_rad = (float)folded_rad[0];
+    *azimuth_rad = (float)folded_rad[1];
     return true;
 }
 
@@ -370,7 +382,7 @@ static bool read_polar_plot(const struct row_reading *reading, struct measuremen
     row->measures = 0;
     if (!read_range(reading, &polar.range_m) ||
         !read_azimuth(reading, COL_AZIMUTH_RAD, &polar.azimuth_rad) ||
-        !read_elevation(reading, &row->measures, &polar.elevation_rad) ||
+        !read_elevation(reading, &row->measures, &polar.elevation_rad, &polar.azimuth_rad) ||
         !read_polar_sigmas(reading, row->sensor_id, &polar) ||
         !convert_to_local_frame(reading, row, &row->measures, &polar) ||
         !read_range_rate(reading, row->sensor_id, &row->measures, &polar.range_rate_mps,
@@ -396,7 +408,6 @@ static void set_radar_place(struct measurement_row *row)
     const double *place_m = radar_axes_place_m(row->frame);
     float turn_rad = (float)radar_axes_turn_rad(row->frame);
 
-    row->has_sensor = true;
     row->sensor.x_m = (float)place_m[0];
     row->sensor.y_m = (float)place_m[1];
     row->sensor.z_m = (float)place_m[2];
@@ -428,12 +439,53 @@ static bool set_sensor_at_position_of_row(const struct row_reading *reading,
         return false;
     }
     if (row->frame) {
+        row->has_sensor = true;
         set_radar_place(row);
         return true;
     }
     return (!has_place || (row_read_position(&reading->cells, COL_SENSOR_X_M, &row->sensor.x_m) &&
                            row_read_position(&reading->cells, COL_SENSOR_Y_M, &row->sensor.y_m))) &&
            (!has_height || row_read_position(&reading->cells, COL_SENSOR_Z_M, &row->sensor.z_m));
+}
+
+/* The place of the sensor of bearings: in the row, else as it is described. */
+static bool read_passive_place(const struct row_reading *reading, struct measurement_row *row)
+{
+    static const enum column_id columns[] = {COL_SENSOR_X_M, COL_SENSOR_Y_M, COL_SENSOR_Z_M};
+    static const enum sensor_parameter_id ids[] = {SENSOR_X_M, SENSOR_Y_M, SENSOR_Z_M};
+    const struct row_check *check = &reading->cells;
+    float *const place_m[] = {&row->sensor.x_m, &row->sensor.y_m, &row->sensor.z_m};
+
+    if (!geodetic_radar_frame(reading->columns->geodetic, check, row->sensor_id, &row->frame)) {
+        return false;
+    }
+    for (int i = 0; i < 3 && !row->frame; i++) {
+        const double told_m = parameters_value_of_sensor(reading->parameters, row->sensor_id,
+                                                         ids[i], i < 2 ? (double)NAN : 0.0);
+
+        if (row_has_cell(check, columns[i])) {
+            if (!row_read_position(check, columns[i], place_m[i])) {
+                return false;
+            }
+        } else if (isnan(told_m)) {
+            return row_refuse(check,
+                              "sensor_x_m, sensor_y_m are empty, and [sensor %d] has no place",
+                              (int)row->sensor_id);
+        } else {
+            *place_m[i] = (float)told_m;
+        }
+    }
+    return true;
+}
+
+static void turn_bearing_to_local_frame(struct measurement_row *row, uint32_t measures)
+{
+    struct radar_look look = {1.0, (double)row->bearing.bearing_rad,
+                              (double)row->bearing.elevation_rad};
+
+    radar_axes_look_to_common(row->frame, (measures & RHO_MEASURES_Z) != 0, &look);
+    row->bearing.bearing_rad = (float)look.azimuth_rad;
+    row->bearing.elevation_rad = (float)look.elevation_rad;
 }
 
 static bool read_bearing(const struct row_reading *reading, struct measurement_row *row)
@@ -444,10 +496,14 @@ static bool read_bearing(const struct row_reading *reading, struct measurement_r
 
     row->has_measurement = true;
     if (!read_azimuth(reading, COL_BEARING_RAD, &row->bearing.bearing_rad) ||
-        !read_elevation(reading, &row->measures, &row->bearing.elevation_rad) ||
+        !read_elevation(reading, &row->measures, &row->bearing.elevation_rad,
+                        &row->bearing.bearing_rad) ||
         ((row->measures & RHO_MEASURES_Z) &&
          !read_sigma_elevation(reading, row->sensor_id, &row->bearing.sigma_elevation_rad))) {
         return false;
+    }
+    if (row->frame) {
+        turn_bearing_to_local_frame(row, row->measures);
     }
     row->measures = 0; /* of bearings each says itself whether it has an elevation */
     /* the time bias is subtracted from the scan's time instead */
@@ -465,12 +521,12 @@ static bool read_bearings_row(const struct row_reading *reading, struct measurem
 {
     const struct row_check *check = &reading->cells;
 
-    if (!row_read_position(check, COL_SENSOR_X_M, &row->sensor.x_m) ||
-        !row_read_position(check, COL_SENSOR_Y_M, &row->sensor.y_m) ||
-        (row_has_cell(check, COL_SENSOR_Z_M) &&
-         !row_read_position(check, COL_SENSOR_Z_M, &row->sensor.z_m)) ||
-        !row_read_sector(check, &row->sector_from_rad, &row->sector_to_rad)) {
+    if (!row_read_sector(check, &row->sector_from_rad, &row->sector_to_rad) ||
+        !read_passive_place(reading, row)) {
         return false;
+    }
+    if (row->frame) {
+        set_radar_place(row);
     }
     row->bias_us = parameters_time_bias_us(reading->parameters, row->sensor_id);
     return row_check_unbiased_time(check, row->time_us, row->bias_us) &&
@@ -518,7 +574,10 @@ bool measurement_row_read(const struct measurement_columns *columns, size_t row,
 
     reading.cells.reason = reason;
     *record = (struct measurement_row){.line = columns->in_file.table->lines[row]};
-    return row_read_time_and_sensor(&reading.cells, &record->time_us, &record->sensor_id) &&
+    record->sensor_id = parameters_lone_sensor_id(parameters);
+    return row_read_time(&reading.cells, COL_T_S, &record->time_us) &&
+           (columns->in_file.at[COL_SENSOR_ID] < 0 ||
+            sensor_names_read(&reading.cells, parameters, &record->sensor_id)) &&
            row_read_received(&reading.cells, &record->received_us) &&
            row_read_scan_number(&reading.cells, &record->number) &&
            (columns->is_bearings ? read_bearings_row(&reading, record)

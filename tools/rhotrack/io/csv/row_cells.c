@@ -135,13 +135,6 @@ bool row_read_int32(const struct row_check *check, enum column_id column, int32_
     return !why || row_refuse_cell(check, column, why);
 }
 
-bool row_read_time_and_sensor(const struct row_check *check, int64_t *time_us, int32_t *sensor)
-{
-    *sensor = 0;
-    return row_read_time(check, COL_T_S, time_us) &&
-           (check->columns->at[COL_SENSOR_ID] < 0 || row_read_int32(check, COL_SENSOR_ID, sensor));
-}
-
 bool row_check_unbiased_time(const struct row_check *check, int64_t time_us, int32_t bias_us)
 {
     int64_t right_us = time_us - bias_us;

@@ -57,9 +57,6 @@ bool row_read_sigma_rad(const struct row_check *check, enum column_id column, do
 bool row_read_sector(const struct row_check *check, float *from_rad, float *to_rad);
 bool row_read_snr(const struct row_check *check, float *snr_db);
 
-/* Reads time and sensor; sensor 0 where the file has no such column. */
-bool row_read_time_and_sensor(const struct row_check *check, int64_t *time_us, int32_t *sensor);
-
 /* Checks that the time is within the library's limits once the sensor's time bias is subtracted. */
 bool row_check_unbiased_time(const struct row_check *check, int64_t time_us, int32_t bias_us);
 

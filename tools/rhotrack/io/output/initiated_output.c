@@ -32,6 +32,7 @@ struct initiated_output *initiated_output_open(const char *path)
         fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; CAT062 is made of tracks",
              path);
     }
+    output_refuse_other_format(path, "NAME.csv and NAME.lcm");
     found->path = path;
     found->is_log = tracks_output_path_is_log(path);
     found->output = output_open(path);

@@ -57,6 +57,7 @@ struct tracks_output *tracks_output_open(const char *path, const struct paramete
         fail(EXIT_USAGE, "%s: GeoJSON cannot hold covariances (--covariance)", path);
     }
     asterix_track_writer_check(path, with_covariance);
+    output_refuse_other_format(path, "NAME.csv, NAME.lcm, NAME.geojson and NAME.ast");
     tracks = make_tracks_output(path, output_open(path), parameters, with_covariance);
     tracks->map =
         geojson_path_is_geojson(path) ? geojson_open(tracks->output.file, parameters) : NULL;

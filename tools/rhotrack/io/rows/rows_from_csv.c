@@ -10,6 +10,7 @@
 #include "base/common.h"
 #include "io/csv/frame_gaps.h"
 #include "io/csv/row_cells.h"
+#include "io/csv/sensor_names.h"
 #include "io/rows/rows_geodetic.h"
 #include "io/scans/scan_numbers.h"
 
@@ -52,7 +53,7 @@ static void check_columns(struct reading *reading)
     const struct rows_kind *kind = reading->file->rows.kind;
 
     (void)columns_need(columns, COL_T_S);
-    if (kind == &rows_kind_bearings || (kind->has_sensor && reading->parameters->num_sensors > 0)) {
+    if (kind == &rows_kind_bearings || (kind->has_sensor && reading->parameters->num_sensors > 1)) {
         (void)columns_need(columns, COL_SENSOR_ID);
     }
     columns->at[COL_RECEIVED_S] = kind->has_received ? columns->at[COL_RECEIVED_S] : -1;
@@ -92,13 +93,15 @@ static bool read_status(const struct row_check *check, enum column_id column, do
     return row_refuse_cell(check, column, "is none of tentative, confirmed, coasting, deleted");
 }
 
+static bool check_int16(const struct row_check *check, enum column_id column, int32_t value)
+{
+    return (value >= INT16_MIN && value <= INT16_MAX) ||
+           row_refuse_cell(check, column, "is outside -32768 .. 32767, the range of messages");
+}
+
 static bool read_int16(const struct row_check *check, enum column_id column, int32_t *value)
 {
-    if (!row_read_int32(check, column, value)) {
-        return false;
-    }
-    return (*value >= INT16_MIN && *value <= INT16_MAX) ||
-           row_refuse_cell(check, column, "is outside -32768 .. 32767, the range of messages");
+    return row_read_int32(check, column, value) && check_int16(check, column, *value);
 }
 
 static bool read_float(const struct row_check *check, enum column_id column, double *value)
@@ -177,19 +180,44 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
     return true;
 }
 
-/* Fills a radar's position from the parameters where its row does not state it. */
-static void fill_missing_radar_place(const struct reading *reading, int32_t sensor_id,
-                                     double *cells)
+/*
+ * Fills a sensor's position from the parameters where its row does not state it. One of bearings
+ * that has none there is left empty.
+ */
+static void fill_missing_sensor_place(const struct reading *reading, int32_t sensor_id,
+                                      double *cells)
 {
     static const enum sensor_parameter_id ids[] = {SENSOR_X_M, SENSOR_Y_M, SENSOR_Z_M};
     static const enum column_id columns[] = {COL_SENSOR_X_M, COL_SENSOR_Y_M, COL_SENSOR_Z_M};
 
-    for (int i = 0; reading->file->rows.kind == &rows_kind_polar && i < 3; i++) {
-        double *cell = &cells[rows_column_index(&rows_kind_polar, columns[i])];
+    const struct rows_kind *kind = reading->file->rows.kind;
+    const bool is_passive = kind == &rows_kind_bearings;
+
+    for (int i = 0; (kind == &rows_kind_polar || is_passive) && i < 3; i++) {
+        double *cell = &cells[rows_column_index(kind, columns[i])];
 
         if (rows_is_cell_empty(*cell)) {
             *cell = (double)(float)parameters_value_of_sensor(reading->parameters, sensor_id,
-                                                              ids[i], 0.0);
+                                                              ids[i], is_passive ? *cell : 0.0);
+        }
+    }
+}
+
+/* A line of sight over the zenith becomes that of the other side; half a turn at most. */
+static void fold_over_zenith(const struct rows_kind *kind, double *cells)
+{
+    const bool is_polar = kind == &rows_kind_polar;
+
+    if (is_polar || kind == &rows_kind_bearings) {
+        double *elevation = &cells[rows_column_index(kind, COL_ELEVATION_RAD)];
+        double *azimuth =
+            &cells[rows_column_index(kind, is_polar ? COL_AZIMUTH_RAD : COL_BEARING_RAD)];
+
+        if (!rows_is_cell_empty(*elevation) && !rows_is_cell_empty(*azimuth) &&
+            fabs(*elevation) <= (double)3.1415927f) {
+            columns_fold_over_zenith(elevation, azimuth);
+            *elevation = (double)(float)*elevation;
+            *azimuth = (double)(float)*azimuth;
         }
     }
 }
@@ -199,12 +227,15 @@ static bool read_row_head(const struct reading *reading, const struct row_check 
                           struct row *row)
 {
     const int *at = reading->columns.at;
-    const bool has_sensor = reading->file->rows.kind->has_sensor && at[COL_SENSOR_ID] >= 0;
+    const bool is_sensors = reading->file->rows.kind->has_sensor;
+    const bool has_sensor = is_sensors && at[COL_SENSOR_ID] >= 0;
 
     row->epoch = 1;
+    row->sensor_id = is_sensors ? parameters_lone_sensor_id(reading->parameters) : 0;
     return row_read_time(check, COL_T_S, &row->time_us) &&
            row_read_received(check, &row->received_us) &&
-           (!has_sensor || read_int16(check, COL_SENSOR_ID, &row->sensor_id)) &&
+           (!has_sensor || (sensor_names_read(check, reading->parameters, &row->sensor_id) &&
+                            check_int16(check, COL_SENSOR_ID, row->sensor_id))) &&
            (at[COL_SCAN] < 0 || row_read_int32(check, COL_SCAN, &row->scan)) &&
            (at[COL_EPOCH] < 0 || row_read_int32(check, COL_EPOCH, &row->epoch));
 }
@@ -294,9 +325,16 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
     if (!check_time_order(reading, check, row) || !read_cells(reading, check, cells)) {
         return false;
     }
-    fill_missing_radar_place(reading, row->sensor_id, cells);
+    fold_over_zenith(rows->kind, cells);
+    fill_missing_sensor_place(reading, row->sensor_id, cells);
     if (!rows_geodetic_fill_cells(&reading->geodetic, check, row->sensor_id, cells)) {
         return false;
+    }
+    if (rows->kind == &rows_kind_bearings &&
+        (rows_is_cell_empty(cells[rows_column_index(rows->kind, COL_SENSOR_X_M)]) ||
+         rows_is_cell_empty(cells[rows_column_index(rows->kind, COL_SENSOR_Y_M)]))) {
+        return row_refuse(check, "sensor_x_m, sensor_y_m are empty, and [sensor %d] has no place",
+                          (int)row->sensor_id);
     }
     if (rows->kind->why_not && rows_row_has_measurement(rows, &rows->list[rows->count - 1])) {
         why = rows->kind->why_not(cells);

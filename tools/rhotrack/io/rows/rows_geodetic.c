@@ -8,7 +8,7 @@
 struct rows_geodetic rows_geodetic_open(const struct table *table, const struct rows_kind *kind,
                                         const struct parameters *parameters)
 {
-    bool has_any = kind == &rows_kind_plots || kind == &rows_kind_polar || kind == &rows_kind_truth;
+    bool has_any = kind != &rows_kind_tracks;
 
     return (struct rows_geodetic){.kind = kind,
                                   .parameters = parameters,
@@ -23,8 +23,10 @@ void rows_geodetic_close(struct rows_geodetic *geodetic)
 
 bool rows_geodetic_replaces(const struct rows_geodetic *geodetic, const struct rows_column *column)
 {
-    return geodetic_has_places(geodetic->geodetic) &&
-           (column->id == COL_X_M || column->id == COL_Y_M);
+    return column->id == COL_SENSOR_X_M || column->id == COL_SENSOR_Y_M
+               ? geodetic_has_sensor_places(geodetic->geodetic)
+               : geodetic_has_places(geodetic->geodetic) &&
+                     (column->id == COL_X_M || column->id == COL_Y_M);
 }
 
 static double *cell_of(const struct rows_geodetic *geodetic, double *cells, enum column_id column)
@@ -126,6 +128,23 @@ static bool turn_polar_cells(const struct rows_geodetic *geodetic, const struct 
     return true;
 }
 
+static void turn_bearing_cells(const struct rows_geodetic *geodetic, const struct radar_axes *frame,
+                               double *cells)
+{
+    const double elevation_rad = *cell_of(geodetic, cells, COL_ELEVATION_RAD);
+    const bool has_elevation = !rows_is_cell_empty(elevation_rad);
+    struct radar_look look = {1.0, *cell_of(geodetic, cells, COL_BEARING_RAD),
+                              has_elevation ? elevation_rad : 0.0};
+
+    if (!rows_is_cell_empty(look.azimuth_rad)) {
+        radar_axes_look_to_common(frame, has_elevation, &look);
+        put_float_cell(geodetic, cells, COL_BEARING_RAD, look.azimuth_rad);
+    }
+    if (has_elevation) {
+        put_float_cell(geodetic, cells, COL_ELEVATION_RAD, look.elevation_rad);
+    }
+}
+
 bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
                               int32_t sensor_id, double *cells)
 {
@@ -148,11 +167,14 @@ bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic, const struct
         rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_FROM_RAD),
                           radar_axes_turn_rad(frame));
         rotate_angle_cell(cell_of(geodetic, cells, COL_SECTOR_TO_RAD), radar_axes_turn_rad(frame));
-        if (geodetic->kind == &rows_kind_polar) {
+        if (geodetic->kind == &rows_kind_polar || geodetic->kind == &rows_kind_bearings) {
             put_float_cell(geodetic, cells, COL_SENSOR_X_M, place_m[0]);
             put_float_cell(geodetic, cells, COL_SENSOR_Y_M, place_m[1]);
             put_float_cell(geodetic, cells, COL_SENSOR_Z_M, place_m[2]);
         }
+    }
+    if (frame && geodetic->kind == &rows_kind_bearings) {
+        turn_bearing_cells(geodetic, frame, cells);
     }
     return geodetic->kind == &rows_kind_polar
                ? turn_polar_cells(geodetic, check, frame, sensor_id, cells)

@@ -55,9 +55,12 @@ void rows_number_turns(struct rows_file *file, const struct parameters *paramete
     for (size_t i = 0; i < file->rows.count && goes_on; i++) {
         const struct row *row = &file->rows.list[i];
 
-        goes_on =
-            !plot_place_relative_to_sensor(file, row, parameters, place_m) ||
-            antenna_turns_add_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
+        if (plot_place_relative_to_sensor(file, row, parameters, place_m)) {
+            goes_on =
+                antenna_turns_add_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
+        } else {
+            antenna_turns_add_empty_row(turns, row->sensor_id);
+        }
     }
     if (antenna_turns_find_rules(turns, file->path, parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {

@@ -12,6 +12,7 @@
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
 #include "io/scans/reorder_buffer.h"
+#include "io/scans/repeated_rows.h"
 #include "io/scans/rows_to_scans.h"
 #include "io/turns/antenna_turns.h"
 
@@ -31,7 +32,8 @@ struct scan_source {
     struct reorder_buffer reorder; /* for a file with reception times, or a log */
     uint32_t item;                 /* of a log: number of the newest scan of bearings, from 1 */
     struct frame_gaps gaps;
-    uint64_t rows_skipped; /* bad rows found here; the stream counts its own */
+    struct repeated_rows *repeated; /* NULL: the file is a log */
+    uint64_t rows_skipped;          /* bad rows found here; the stream counts its own */
 };
 
 /* Checks that a row has the values that all rows of its scan must share. */
@@ -170,6 +172,10 @@ static void process_table_row(struct scan_source *source, const struct table *ta
 
     find_columns(source, table);
     is_good = measurement_row_read(&source->columns, 0, source->parameters, &row, reason);
+    if (is_good && repeated_rows_leaves_out(source->repeated, &row)) {
+        source->has_good = true;
+        return;
+    }
     if (is_good && source->columns.in_file.at[COL_RECEIVED_S] >= 0) {
         rows_to_scans_set_reception(&source->gather, row.received_us);
     }
@@ -453,8 +459,12 @@ static void find_antenna_turns(struct scan_source *source)
     table_stream_set_quiet(stream);
     source->turns = antenna_turns_start();
     while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
-        if (measurement_row_read(&columns, 0, source->parameters, &row, reason) &&
-            row.has_measurement) {
+        if (!measurement_row_read(&columns, 0, source->parameters, &row, reason)) {
+            continue;
+        }
+        if (!row.has_measurement) {
+            antenna_turns_add_empty_row(source->turns, row.sensor_id);
+        } else {
             goes_on = antenna_turns_add_row(source->turns, row.sensor_id, row.time_us,
                                             (double)row.plot.x_m - (double)row.sensor.x_m,
                                             (double)row.plot.y_m - (double)row.sensor.y_m);
@@ -479,6 +489,7 @@ static void open_rows_and_find_turns(struct scan_source *source)
                         llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     parameters_time_bias_range_us(source->parameters, &least_us, &source->gather.bias_max_us);
     source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
+    source->repeated = repeated_rows_open();
     source->reorder.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
     open_row_stream(source);
     if (may_have_turns(source)) {
@@ -521,6 +532,7 @@ static void close_rows(struct scan_source *source)
 {
     rows_to_scans_free(&source->gather);
     antenna_turns_free(source->turns);
+    repeated_rows_free(source->repeated);
     close_row_stream_and_columns(source);
 }
 
@@ -580,6 +592,7 @@ void scan_source_close(struct scan_source *source)
         log_scans_close(source->log);
     } else {
         frame_gaps_report(&source->gaps, table_stream_table(source->stream)->path);
+        repeated_rows_report(source->repeated, source->path);
         close_rows(source);
     }
     reorder_buffer_free(&source->reorder);

@@ -21,7 +21,7 @@ struct antenna {
     int32_t sensor_id;
     struct turn_rule rule;
     struct turn_plot *plots; /* rows collected for the search */
-    size_t count, capacity;
+    size_t count, capacity, num_empty;
     bool is_running; /* a first row has been numbered */
     int64_t last_us; /* time of the newest row */
     /* angle turned since the first cut, at last_us, in the direction of turning */
@@ -54,8 +54,7 @@ static struct antenna *find_antenna(const struct antenna_turns *turns, int32_t s
     return NULL;
 }
 
-bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
-                           double x_m, double y_m)
+static struct antenna *find_or_add_antenna(struct antenna_turns *turns, int32_t sensor_id)
 {
     struct antenna *antenna = find_antenna(turns, sensor_id);
 
@@ -65,6 +64,19 @@ bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id, int64
         antenna = &turns->list[turns->count++];
         *antenna = (struct antenna){.sensor_id = sensor_id};
     }
+    return antenna;
+}
+
+void antenna_turns_add_empty_row(struct antenna_turns *turns, int32_t sensor_id)
+{
+    find_or_add_antenna(turns, sensor_id)->num_empty++;
+}
+
+bool antenna_turns_add_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+                           double x_m, double y_m)
+{
+    struct antenna *antenna = find_or_add_antenna(turns, sensor_id);
+
     if (antenna->count < SENSOR_ROWS_MAX) {
         antenna->plots = must_make_room_for_one(antenna->plots, antenna->count, &antenna->capacity,
                                                 sizeof *antenna->plots);
@@ -129,7 +141,8 @@ bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, dou
     for (size_t i = 0; i < turns->count; i++) {
         struct antenna *antenna = &turns->list[i];
 
-        antenna->rule = turn_search_find_rule(antenna->plots, antenna->count, v_max_mps);
+        antenna->rule =
+            turn_search_find_rule(antenna->plots, antenna->count, antenna->num_empty, v_max_mps);
         if (antenna->rule.kind != TURN_NONE && !was_said) {
             report_rule(antenna, path);
         }

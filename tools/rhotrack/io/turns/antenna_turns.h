@@ -22,6 +22,9 @@ bool antenna_turns_are_wanted(const struct parameters *parameters);
 
 struct antenna_turns *antenna_turns_start(void);
 
+/* Notes a row without a measurement, for the search of rules. */
+void antenna_turns_add_empty_row(struct antenna_turns *turns, int32_t sensor_id);
+
 /*
  * Collects a row for the search of rules, in the order of time: a plot's place relative to its
  * sensor. Returns false once there are enough rows.

@@ -25,7 +25,9 @@
 #define GAP_RATIO 3.0
 #define LOOKS_MIN 5    /* fewest bursts */
 #define EVEN_SHARE 0.8 /* least share of bursts that come at regular intervals */
-#define EVEN 0.15      /* tolerance of a regular interval, relative to the median interval */
+/* share of rows without a measurement, to plots, above which times are those of looks */
+#define EMPTY_SHARE 0.05
+#define EVEN 0.15 /* tolerance of a regular interval, relative to the median interval */
 /* antennas take longer for a turn: rows this close are parts of a scan */
 #define SOON_S 1.0
 /* ratio of the longest step in time to the median above which rows form scans */
@@ -321,7 +323,7 @@ static struct simultaneous measure_simultaneous_plots(const struct turn_plot *pl
 }
 
 struct turn_rule turn_search_find_rule(const struct turn_plot *plots, size_t count,
-                                       double v_max_mps)
+                                       size_t num_empty, double v_max_mps)
 {
     const struct simultaneous simultaneous = measure_simultaneous_plots(plots, count);
     const bool are_scans = simultaneous.count > count / 2;
@@ -329,7 +331,8 @@ struct turn_rule turn_search_find_rule(const struct turn_plot *plots, size_t cou
     int64_t *steps;
 
     if (count < PLOTS_MIN || (are_scans && simultaneous.concentration < CONCENTRATION) ||
-        find_rule_by_azimuths(plots, count, v_max_mps, &rule) || are_scans) {
+        find_rule_by_azimuths(plots, count, v_max_mps, &rule) || are_scans ||
+        (double)num_empty > EMPTY_SHARE * (double)count) {
         return rule;
     }
     steps = list_sorted_time_steps(plots, count);
