@@ -45,7 +45,7 @@ refuse 'time NaN' "2: t_s 'nan' is not finite" "${header}nan,1,2,3\n"
 refuse 'time beyond 4e12 s' "2: t_s '4.1e12' is beyond 4e12 s" "${header}4.1e12,1,2,3\n"
 refuse 'no time' '2: t_s is empty' "${header},1,2,3\n"
 refuse 'sensor_id with a point' "2: sensor_id '1.5' is not an integer" "${header}1,1.5,2,3\n"
-refuse 'sensor_id that is no number' "2: sensor_id 'A' is not an integer" "${header}1,A,2,3\n"
+refuse 'sensor_id that is no number' "2: sensor_id '!A' is not an integer" "${header}1,!A,2,3\n"
 refuse 'sensor_id too large' "2: sensor_id '4294967296' is out of the range*" \
     "${header}1,4294967296,2,3\n"
 refuse 'no sensor_id' '2: sensor_id is empty' "${header}1,,2,3\n"
@@ -163,9 +163,9 @@ refuse 'no azimuth that is believed' '2: azimuth_rad 2e6 is outside *' "${polar}
 refuse 'azimuth NaN' "2: azimuth_rad 'nan' is not finite" "${polar}1,1,5,nan\n"
 refuse 'no compass' '2: azimuth_deg -2e6 is outside -1000000 .. 1000000' \
     't_s,sensor_id,range_m,azimuth_deg\n1,1,5,-2e6\n'
-refuse 'elevation beyond pi/2' '2: elevation_rad 1.6 is outside *' \
-    "t_s,sensor_id,range_m,azimuth_rad,elevation_rad\n1,1,5,1,1.6\n"
-refuse 'elevation below -90 degrees' '2: elevation_deg -91 is outside -90 .. 90' \
+refuse 'elevation beyond half a turn' '2: elevation_rad 3.2 is outside *' \
+    "t_s,sensor_id,range_m,azimuth_rad,elevation_rad\n1,1,5,1,3.2\n"
+refuse 'elevation below -90 degrees' '2: elevation_deg -91 is outside -90 .. 180' \
     "t_s,sensor_id,range_m,azimuth_rad,elevation_deg\n1,1,5,1,-91\n"
 refuse 'infinite range rate' "2: range_rate_mps 'inf' is not finite" \
     "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,inf\n"

@@ -117,7 +117,7 @@ refuse 'a bearing that is no number' "2: bearing_rad 'north' is not a number" \
 refuse 'a bearing NaN' "2: bearing_rad 'nan' is not finite" "${header}0,1,0,0,nan\n"
 refuse 'no time' '2: t_s is empty' "${header},1,0,0,1\n"
 refuse 'a time that is no number' "2: t_s 'noon' is not a number" "${header}noon,1,0,0,1\n"
-refuse 'a sensor that is no number' "2: sensor_id 'A' is not an integer" "${header}0,A,0,0,1\n"
+refuse 'a sensor that is no number' "2: sensor_id '!A' is not an integer" "${header}0,!A,0,0,1\n"
 refuse 'no sensor' '2: sensor_id is empty' "${header}0,,0,0,1\n"
 refuse 'no place' '2: sensor_x_m is empty' "${header}0,1,,0,1\n"
 refuse 'half a place' '2: sensor_y_m is empty' "${header}0,1,0,,1\n"
@@ -149,7 +149,7 @@ refuse 'half a sector, in a row' '2: sector_to_rad is empty' \
 refuse 'half a sector, in the header' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad\n0,1,0,0,1,0\n'
 high="${header%\\n},elevation_rad,sigma_elevation_rad,sensor_z_m\n"
-refuse 'elevation beyond the zenith' '2: elevation_rad 1.6 is outside *' "${high}0,1,0,0,1,1.6,,\n"
+refuse 'elevation beyond half a turn' '2: elevation_rad 3.2 is outside *' "${high}0,1,0,0,1,3.2,,\n"
 refuse 'elevation without a bearing' '2: bearing_rad is empty' "${high}0,1,0,0,,1,,\n"
 refuse 'no noise of elevations' '2: sigma_elevation_rad 0 is outside *' "${high}0,1,0,0,1,1,0,\n"
 refuse 'a height NaN' "2: sensor_z_m 'nan' is not finite" "${high}0,1,0,0,1,1,,nan\n"

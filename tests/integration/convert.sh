@@ -310,9 +310,9 @@ refuse 'two sigmas of bearings' "3: sigma_rad differs from that of the scan's ot
     "${bearings}1,1,0,0,1,0.1\n1,1,0,0,1,0.2\n"
 directions='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,elevation_rad,'
 directions+='sigma_elevation_rad,sensor_z_m\n'
-refuse 'elevation beyond the zenith' \
-    '2: elevation_rad 1.6 is outside the range of a direction_scan_t' \
-    "${directions}1,1,0,0,1,,1.6,,\n"
+refuse 'elevation beyond half a turn' \
+    '2: elevation_rad 3.2 is outside the range of a direction_scan_t' \
+    "${directions}1,1,0,0,1,,3.2,,\n"
 refuse 'elevation without a bearing' '2: the bearing is empty' "${directions}1,1,0,0,,,1,,\n"
 refuse 'two sigmas of elevations' "3: sigma_elevation_rad differs from that of the scan's other *" \
     "${directions}1,1,0,0,1,,1,0.1,\n1,1,0,0,1,,1,0.2,\n"

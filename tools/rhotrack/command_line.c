@@ -14,7 +14,7 @@
 #include "io/csv/guess_origin.h"
 #include "settings/initiation_methods.h"
 
-enum { NUM_OPTIONS = 31, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 32, RUNS_MAX = 1000000 };
 
 /* All options. Letters identify options inside the program; users can type -o and -h alone. */
 static const struct {
@@ -43,6 +43,9 @@ static const struct {
     {'s', "set", "KEY=VALUE", "a parameter; may be repeated; `rhotrack config` lists them"},
     {'C', "config", "FILE",
      "parameters from an INI file; may be repeated, the last one counts; --set goes before it"},
+    {'3', "preset", "KIND",
+     "parameters of a kind of radar: en_route, approach, marine, coastal_harbour, drone_defence, "
+     "traffic"},
     {'N', "columns", "NAME=COLUMN,...",
      "CSV: the file's COLUMN is read as NAME (x_m, range_km, time_ms, ...)"},
     {'l', "lcm", "URL",
@@ -186,12 +189,25 @@ static void keep_setting_as_typed(struct command_line *line, const char *option,
     line->settings[line->num_settings++] = value;
 }
 
+static void set_preset(struct command_line *line, const char *name)
+{
+    char reason[PARAMETER_REASON_BYTES];
+
+    if (!parameters_assign_preset(&line->parameters, name, reason)) {
+        fail(EXIT_USAGE, "--preset: %s", reason);
+    }
+    keep_setting_as_typed(line, "--preset", name);
+}
+
 static bool apply_setting_option(struct command_line *line, char letter, char *argument)
 {
     switch (letter) {
     case 's':
         parameters_set_assignment(&line->parameters, argument);
         keep_setting_as_typed(line, "--set", argument);
+        return true;
+    case '3':
+        set_preset(line, argument);
         return true;
     case 'N':
         columns_set_option(argument);

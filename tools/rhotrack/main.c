@@ -24,7 +24,7 @@
 
 static const struct command commands[] = {
     {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest] [--follow]", 1,
-     INT_MAX, "omPgWfcMZjksCN", "the main job: scans in, tracks out",
+     INT_MAX, "omPgWfcMZjks3CN", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
@@ -50,7 +50,7 @@ static const struct command commands[] = {
      "waits for its rest. It ends on SIGINT and SIGTERM with exit code 0, and with 1 where the "
      "file\n"
      "becomes shorter, is replaced or removed; rows that were written stay.\n"},
-    {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method METHOD]", 1, 1, "omjksCN",
+    {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method METHOD]", 1, 1, "omjks3CN",
      "initiation alone, on the last scans as one batch",
      "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks "
      "found\n"
@@ -60,7 +60,7 @@ static const struct command commands[] = {
      "Sectors of a turning radar are one scan a turn. OUTPUT is an LCM log where it is NAME.lcm.\n"
      "\n" INPUT_FORMATS},
     {"maintain", command_maintain, "INPUT [-o OUTPUT] [--gate best|hough|nearest|none]", 1, 1,
-     "ogicjkSsCN", "one track alone, never dropped",
+     "ogicjkSs3CN", "one track alone, never dropped",
      "The first plot of the first scan starts a track; of each further scan it takes one plot, or "
      "none.\n"
      "Writes one row a scan (CSV) to OUTPUT or standard output. Gates: best (the default: several\n"
@@ -79,7 +79,7 @@ static const struct command commands[] = {
      "A scene is a file NAME.json, or the name of one that ships; all stands in it\n"
      "(tools/scenes/README.md), and --set changes it, as in --set radars.0.pd=0.7.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
-     "oBjsCN", "tracks against the truth",
+     "oBjs3CN", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "
      "and "
      "their\n"
@@ -97,14 +97,14 @@ static const struct command commands[] = {
      "(by_target).\n"},
     {"plot", command_plot,
      "scans|tracks|parameter-space|errors|clutter-map FILES... -o NAME.svg|.png|.html", 2, INT_MAX,
-     "omsCN", "pictures",
+     "oms3CN", "pictures",
      "Draws plots or bearings, tracks, the parameter space of lines, errors, or a clutter map (and "
      "the\n"
      "plots of further files beneath), as .svg, .png or .html. With --method ht, mht, iht or nht "
      "the parameter\n"
      "space has that method's votes; of nht also truth, indeterminacy and falsity.\n"},
     {"convert", command_convert, "IN OUT [--kind plots|polar|bearings|truth|tracks]", 2, 2,
-     "KcksCN", "CSV files, LCM logs and ASTERIX to one another",
+     "Kcks3CN", "CSV files, LCM logs and ASTERIX to one another",
      "Writes a CSV file (plots, polar plots, bearings, truth or tracks) as an LCM log, or the\n"
      "messages of one kind of a log as a CSV file. CSV files end with .csv, LCM logs with .lcm.\n"
      "Tracks of either become a map where OUT is NAME.geojson; that needs the parameters\n"
@@ -121,7 +121,7 @@ static const struct command commands[] = {
      "where OUT ends with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLRTAF2EmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
+     "lpLRTAF2EmPgWMs3C", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n> and\n"
      "RHO_DIRECTIONS_<n>, and publishes RHO_TRACKS and RHO_PEAKS at each scan, with body_max_m\n"
      "RHO_BODIES, and once a second RHO_STATUS, RHO_WORK and RHO_SENSORS,\n"
@@ -151,7 +151,7 @@ static const struct command commands[] = {
      "udpm:// URLs have the options ttl=N (0: this machine, 1: this network), recv_buf_size=BYTES\n"
      "and sources_allowed=ADDRESS,... (IPv4; others are refused and counted).\n"},
     {"publish", command_publish, "INPUT... [--lcm URL] [--speed X] [--loop]", 1, INT_MAX,
-     "lxOTksCN", "plays files as sensors, live",
+     "lxOTks3CN", "plays files as sensors, live",
      "Sends the messages of LCM logs, CSV files (plots, polar plots, bearings, truth, tracks) and\n"
      "recordings in ASTERIX (NAME.ast, or in NAME.pcap, NAME.pcapng) in time, the first one at "
      "once.\n"
@@ -195,12 +195,12 @@ static const struct command commands[] = {
      "\n"
      "Nothing proves who sent a command: a node's --commands-from limits the addresses, and\n"
      "sources_allowed of --lcm those of all messages. Beyond ten a second it gives no answer.\n"},
-    {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",
+    {"config", command_config, "[--method METHOD]", 0, 0, "mjs3C",
      "every parameter with unit, default and range",
      "Prints each parameter's unit, default, range, and its value now with where it came from; "
      "with\n"
      "--method, that method's customary values.\n"},
-    {"calibrate", command_calibrate, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjksCN",
+    {"calibrate", command_calibrate, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjks3CN",
      "noise, pd, clutter, turn time and speeds of a recording",
      "Reads plots, tracks each radar alone, and tells what it is like: noise along the line of\n"
      "sight and across it (of places: on each axis), pd, clutter, turn time, and the speeds of "
@@ -209,7 +209,7 @@ static const struct command commands[] = {
      "an\n"
      "INI file for --config; with -o - it is on standard output, and the table on standard "
      "error.\n"},
-    {"register", command_register, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjksCN",
+    {"register", command_register, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjks3CN",
      "biases of radars from common targets",
      "Reads polar plots of two or more radars, tracks each radar alone, finds the targets that "
      "several\n"

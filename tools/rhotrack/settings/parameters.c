@@ -114,7 +114,7 @@ const char *parameters_source_name(enum parameter_source source)
 {
     static const char *const names[] = {
         [SOURCE_UNSET] = "unset",   [SOURCE_DEFAULT] = "default", [SOURCE_METHOD] = "method",
-        [SOURCE_CONFIG] = "config", [SOURCE_SET] = "set",
+        [SOURCE_PRESET] = "preset", [SOURCE_CONFIG] = "config",   [SOURCE_SET] = "set",
     };
 
     return names[source];
@@ -434,6 +434,9 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
     if (!strcmp(key, "sensors_allowed")) {
         return assign_allowed_sensors(parameters, value, source, reason);
     }
+    if (!strcmp(key, "preset")) {
+        return parameters_assign_preset(parameters, value, reason);
+    }
     if (!strcmp(key, "reflectors")) {
         return parameters_assign_reflectors(parameters, value, source, reason);
     }
@@ -465,9 +468,15 @@ void parameters_set_defaults(struct parameters *parameters)
     }
 }
 
+void parameters_suggest_by(struct parameters *parameters, enum parameter_id id, double value,
+                           enum parameter_source source)
+{
+    store_by_precedence(&parameters->value[id], &parameters->source[id], value, source);
+}
+
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value)
 {
-    store_by_precedence(&parameters->value[id], &parameters->source[id], value, SOURCE_METHOD);
+    parameters_suggest_by(parameters, id, value, SOURCE_METHOD);
 }
 
 void parameters_set_assignment(struct parameters *parameters, const char *assignment)

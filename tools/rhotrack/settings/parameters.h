@@ -209,7 +209,16 @@ enum parameter_id {
     NUM_VALUES
 };
 
-enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONFIG, SOURCE_SET };
+#define PARAMETER_REASON_BYTES 256
+
+enum parameter_source {
+    SOURCE_UNSET,
+    SOURCE_DEFAULT,
+    SOURCE_METHOD,
+    SOURCE_PRESET,
+    SOURCE_CONFIG,
+    SOURCE_SET
+};
 
 /*
  * Table of the parameters of a single sensor, of INI section [sensor N] or --set
@@ -319,6 +328,18 @@ void parameters_set_defaults(struct parameters *parameters);
  */
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
 
+/* The same with the precedence of a source. */
+void parameters_suggest_by(struct parameters *parameters, enum parameter_id id, double value,
+                           enum parameter_source source);
+
+/*
+ * Suggests the settings of a kind of radar (rho_settings_preset), named as in Python: marine,
+ * en_route, ... --config and --set override them, in any order. Returns false with the reason for
+ * an unknown name.
+ */
+bool parameters_assign_preset(struct parameters *parameters, const char *name,
+                              char reason[PARAMETER_REASON_BYTES]);
+
 /*
  * Assigns "key=value", "sensor.N.key=value" or "zone.N.key=value" of --set. On errors prints
  * `rhotrack: --set key=value: reason` and exits with 2.
@@ -380,7 +401,6 @@ void parameters_set_method(struct parameters *parameters, const char *method);
  * Assigns one value of any source; key: "key", "sensor.N.key" or "zone.N.key". A value from a
  * source of higher precedence stays. Returns false and the reason on errors.
  */
-#define PARAMETER_REASON_BYTES 256
 bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
                        enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
 

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* parameters_convert: converts parameters to the library's settings and configurations. */
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/common.h"
 #include "rhotrack/detail/measurement.h"
@@ -34,6 +37,62 @@
     FIELD(COAST_SCANS_MAX, coast_scans_max, uint16_t)                                              \
     FIELD(STANDING, standing, uint32_t)                                                            \
     FIELD(WORK_MAX, work_max, uint32_t)
+
+/* Fields that rho_settings_preset chooses; of the others a method may have its own. */
+#define PRESET_FIELDS(FIELD)                                                                       \
+    FIELD(V_MIN_MPS, v_min_mps)                                                                    \
+    FIELD(V_MAX_MPS, v_max_mps)                                                                    \
+    FIELD(ACCEL_MAX_MPS2, accel_max_mps2)                                                          \
+    FIELD(PD, pd)                                                                                  \
+    FIELD(SIGMA_RANGE_M, sigma_range_m)                                                            \
+    FIELD(SIGMA_AZIMUTH_RAD, sigma_azimuth_rad)                                                    \
+    FIELD(SIGMA_ELEVATION_RAD, sigma_elevation_rad)                                                \
+    FIELD(SIGMA_RANGE_RATE_MPS, sigma_range_rate_mps)                                              \
+    FIELD(RANGE_MIN_M, range_min_m)                                                                \
+    FIELD(RANGE_MAX_M, range_max_m)                                                                \
+    FIELD(FALSE_TRACKS_PER_HOUR, false_tracks_per_hour)                                            \
+    FIELD(COAST_SCANS_MAX, coast_scans_max)                                                        \
+    FIELD(STANDING, standing)
+
+/* The decimal number that the float was written as, 0.009 and not 0.00899999961. */
+static double shortest_decimal(float value)
+{
+    char text[32];
+
+    snprintf(text, sizeof text, "%.7g", (double)value);
+    return strtod(text, NULL);
+}
+
+bool parameters_assign_preset(struct parameters *parameters, const char *name,
+                              char reason[PARAMETER_REASON_BYTES])
+{
+    static const char *const names[RHO_NUM_PRESETS] = {
+        [RHO_PRESET_EN_ROUTE] = "en_route", [RHO_PRESET_APPROACH] = "approach",
+        [RHO_PRESET_MARINE] = "marine",     [RHO_PRESET_COASTAL_HARBOUR] = "coastal_harbour",
+        [RHO_PRESET_TRAFFIC] = "traffic",   [RHO_PRESET_DRONE_DEFENCE] = "drone_defence"};
+
+    for (int i = 0; i < RHO_NUM_PRESETS; i++) {
+        if (strcmp(name, names[i]) == 0) {
+            struct rho_settings settings;
+
+            rho_settings_preset(&settings, (enum rho_preset)i);
+#define SUGGEST(id, field)                                                                         \
+    parameters_suggest_by(parameters, PARAMETER_##id, shortest_decimal((float)settings.field),     \
+                          SOURCE_PRESET);
+            PRESET_FIELDS(SUGGEST)
+#undef SUGGEST
+            parameters_suggest_by(parameters, PARAMETER_LATE_MAX_S,
+                                  fmin(LATE_SCANS * (double)settings.scan_interval_s, LATE_LIMIT_S),
+                                  SOURCE_PRESET);
+            return true;
+        }
+    }
+    snprintf(
+        reason, PARAMETER_REASON_BYTES,
+        "'%.40s' is none of en_route, approach, marine, coastal_harbour, drone_defence, traffic",
+        name);
+    return false;
+}
 
 struct rho_settings parameters_to_settings(const struct parameters *parameters)
 {
@@ -165,10 +224,14 @@ bool parameters_states_polar_noise(const struct parameters *parameters, int32_t 
 /* True where a source set the position noise, for all sensors or for one. */
 static bool is_noise_stated(const struct parameters *parameters)
 {
-    bool says = is_parameter_set(parameters, PARAMETER_SIGMA_M) ||
-                is_parameter_set(parameters, PARAMETER_SIGMA_RANGE_M) ||
-                is_parameter_set(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
+    static const enum parameter_id sigmas[] = {PARAMETER_SIGMA_M, PARAMETER_SIGMA_RANGE_M,
+                                               PARAMETER_SIGMA_AZIMUTH_RAD};
+    bool says = false;
 
+    for (size_t i = 0; i < sizeof sigmas / sizeof *sigmas; i++) {
+        says |= is_parameter_set(parameters, sigmas[i]) &&
+                parameters->source[sigmas[i]] != SOURCE_PRESET; /* a kind's noise, not this one's */
+    }
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const int32_t id = parameters->sensors[i].sensor_id;
 

@@ -113,8 +113,8 @@ void columns_fold_over_zenith(double *elevation_rad, double *azimuth_rad)
 {
     const double quarter = (double)1.5707964f; /* the float nearest to it, as files may have it */
 
-    if (fabs(*elevation_rad) > quarter) {
-        *elevation_rad = copysign(TURN / 2 - fabs(*elevation_rad), *elevation_rad);
+    if (*elevation_rad > quarter) {
+        *elevation_rad = TURN / 2 - *elevation_rad;
         *azimuth_rad = remainder(*azimuth_rad + TURN / 2, TURN);
     }
 }

@@ -229,14 +229,14 @@ static bool read_elevation(const struct row_reading *reading, uint32_t *measures
                            float *elevation_rad, float *azimuth_rad)
 {
     const bool is_degrees = columns_has_degrees(&reading->columns->in_file, COL_ELEVATION_RAD);
-    const float limit = is_degrees ? 180.0f : (float)PI;
+    const float turn = is_degrees ? 180.0f : (float)PI;
     double folded_rad[2];
 
     if (!row_has_cell(&reading->cells, COL_ELEVATION_RAD)) {
         return true;
     }
     *measures |= RHO_MEASURES_Z;
-    if (!row_read_float(&reading->cells, COL_ELEVATION_RAD, -limit, limit, elevation_rad)) {
+    if (!row_read_float(&reading->cells, COL_ELEVATION_RAD, -0.5f * turn, turn, elevation_rad)) {
         return false;
     }
     if (is_degrees) {
@@ -467,6 +467,9 @@ static bool read_passive_place(const struct row_reading *reading, struct measure
             if (!row_read_position(check, columns[i], place_m[i])) {
                 return false;
             }
+        } else if (isnan(told_m) && check->columns->at[columns[i]] >= 0 &&
+                   reading->parameters->num_sensors == 0) {
+            return row_refuse_cell(check, columns[i], "");
         } else if (isnan(told_m)) {
             return row_refuse(check,
                               "sensor_x_m, sensor_y_m are empty, and [sensor %d] has no place",

@@ -213,8 +213,8 @@ static void fold_over_zenith(const struct rows_kind *kind, double *cells)
         double *azimuth =
             &cells[rows_column_index(kind, is_polar ? COL_AZIMUTH_RAD : COL_BEARING_RAD)];
 
-        if (!rows_is_cell_empty(*elevation) && !rows_is_cell_empty(*azimuth) &&
-            fabs(*elevation) <= (double)3.1415927f) {
+        if (!rows_is_cell_empty(*elevation) && !rows_is_cell_empty(*azimuth) && *elevation > 0.0 &&
+            *elevation <= (double)3.1415927f) {
             columns_fold_over_zenith(elevation, azimuth);
             *elevation = (double)(float)*elevation;
             *azimuth = (double)(float)*azimuth;
@@ -315,6 +315,24 @@ static void note_row_scan_and_latest_time(struct reading *reading, const struct 
     reading->has_last = true;
 }
 
+static bool check_passive_place(const struct reading *reading, const struct row_check *check,
+                                const struct row *row, const double *cells)
+{
+    static const enum column_id places[] = {COL_SENSOR_X_M, COL_SENSOR_Y_M};
+
+    for (int i = 0; i < 2; i++) {
+        if (!rows_is_cell_empty(cells[rows_column_index(&rows_kind_bearings, places[i])])) {
+            continue;
+        }
+        return check->columns->at[places[i]] >= 0 && reading->parameters->num_sensors == 0
+                   ? row_refuse_cell(check, places[i], "")
+                   : row_refuse(check,
+                                "sensor_x_m, sensor_y_m are empty, and [sensor %d] has no place",
+                                (int)row->sensor_id);
+    }
+    return true;
+}
+
 /* Reads the cells of the newest row, and checks the row with them. */
 static bool read_and_check_row(const struct reading *reading, const struct row_check *check,
                                const struct row *row, double *cells)
@@ -330,11 +348,8 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
     if (!rows_geodetic_fill_cells(&reading->geodetic, check, row->sensor_id, cells)) {
         return false;
     }
-    if (rows->kind == &rows_kind_bearings &&
-        (rows_is_cell_empty(cells[rows_column_index(rows->kind, COL_SENSOR_X_M)]) ||
-         rows_is_cell_empty(cells[rows_column_index(rows->kind, COL_SENSOR_Y_M)]))) {
-        return row_refuse(check, "sensor_x_m, sensor_y_m are empty, and [sensor %d] has no place",
-                          (int)row->sensor_id);
+    if (rows->kind == &rows_kind_bearings && !check_passive_place(reading, check, row, cells)) {
+        return false;
     }
     if (rows->kind->why_not && rows_row_has_measurement(rows, &rows->list[rows->count - 1])) {
         why = rows->kind->why_not(cells);

@@ -16,7 +16,7 @@ struct said {
     uint32_t measures;
     struct rho_plot plot;
     struct rho_bearing bearing;
-    float sensor_m[3];
+    float sensor_m[3], sector_rad[2];
     bool is_there;
 };
 
@@ -82,6 +82,8 @@ bool repeated_rows_leaves_out(struct repeated_rows *rows, struct measurement_row
     said.sensor_m[0] = row->sensor.x_m;
     said.sensor_m[1] = row->sensor.y_m;
     said.sensor_m[2] = row->sensor.z_m;
+    said.sector_rad[0] = row->sector_from_rad;
+    said.sector_rad[1] = row->sector_to_rad;
     said.is_there = true;
     place = &rows->said[place_of(&said)];
     if (memcmp(place, &said, sizeof said) != 0) {
