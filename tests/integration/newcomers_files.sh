@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Files as newcomers have them: without a sensor's number, with names of stations, bearings beside
-# ranges, places in degrees, records that come twice, elevations over the zenith, sensors that stare;
+# ranges, places in degrees, records that come twice, sensors that stare, the zenith;
 # presets of kinds of radars; outputs in formats that are not written. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"

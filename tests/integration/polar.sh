@@ -390,7 +390,8 @@ run track one.csv -o one.out.csv
 run track bare.csv -o bare.out.csv
 check 'track: the same' cmp one.out.csv bare.out.csv
 run track bare.csv --set sensor.3.x_m=100 --set sensor.4.x_m=100
-check 'track: not where several sensors are described' says 2 "rhotrack: bare.csv:1: no column 'sensor_id'*"
+check 'track: not where several sensors are described' says 2 \
+    "rhotrack: bare.csv:1: no column 'sensor_id'*"
 # Such a file once left the script for gnuplot behind.
 { cat bare.csv; echo 3,1,1; } >back.csv
 run plot parameter-space back.csv -o refused.svg

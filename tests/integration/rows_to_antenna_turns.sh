@@ -176,7 +176,11 @@ run track sectors.csv -o tracks.csv
 check 'and sectors' bash -c '! grep -q "gathered into" stderr'
 
 # A plot that goes back in time is refused in a turn as elsewhere.
-{ head -n 300 clockwise.csv; sed -n '290s/$/1/p' clockwise.csv; tail -n +301 clockwise.csv; } >back.csv
+{
+    head -n 300 clockwise.csv
+    sed -n '290s/$/1/p' clockwise.csv
+    tail -n +301 clockwise.csv
+} >back.csv
 run track back.csv
 check 'time that goes back within a turn' grep -q \
     '^rhotrack: back.csv:301: time decreases from ' stderr

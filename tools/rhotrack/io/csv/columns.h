@@ -113,8 +113,8 @@ struct columns {
 /*
  * Finds all columns, an azimuth or elevation in degrees where there is none in radians, and the
  * number of the frame where there is no time and the table has a frame rate. Azimuth and elevation
- * without a range are a bearing and its elevation; a bearing with a range, and no azimuth beside it,
- * is a radar's azimuth.
+ * without a range are a bearing and its elevation; a bearing with a range and without azimuth is a
+ * radar's azimuth.
  */
 struct columns columns_find(const struct table *table);
 

@@ -34,8 +34,8 @@ struct turn_rule {
 /*
  * Finds the rule of one radar from its first plots, in the order of time. Scan intervals of 0.5 to
  * 50 s are found. Rows that one target of at most v_max_mps can have caused alone give no turns.
- *   num_empty  rows without a measurement beside them: where they are many, each time is a look, and
- *              pauses between looks are no turns
+ *   num_empty  rows without a measurement beside them: where these are many, each time is a look,
+ *              and pauses between looks are no turns
  */
 struct turn_rule turn_search_find_rule(const struct turn_plot *plots, size_t count,
                                        size_t num_empty, double v_max_mps);
