@@ -423,6 +423,69 @@ static bool assign_allowed_sensors(struct parameters *parameters, const char *va
     return true;
 }
 
+void parameters_suggest_by(struct parameters *parameters, enum parameter_id id, double value,
+                           enum parameter_source source)
+{
+    store_by_precedence(&parameters->value[id], &parameters->source[id], value, source);
+}
+
+/* Fields that rho_settings_preset chooses; of the others a method may have its own. */
+#define PRESET_FIELDS(FIELD)                                                                       \
+    FIELD(V_MIN_MPS, v_min_mps)                                                                    \
+    FIELD(V_MAX_MPS, v_max_mps)                                                                    \
+    FIELD(ACCEL_MAX_MPS2, accel_max_mps2)                                                          \
+    FIELD(PD, pd)                                                                                  \
+    FIELD(SIGMA_RANGE_M, sigma_range_m)                                                            \
+    FIELD(SIGMA_AZIMUTH_RAD, sigma_azimuth_rad)                                                    \
+    FIELD(SIGMA_ELEVATION_RAD, sigma_elevation_rad)                                                \
+    FIELD(SIGMA_RANGE_RATE_MPS, sigma_range_rate_mps)                                              \
+    FIELD(RANGE_MIN_M, range_min_m)                                                                \
+    FIELD(RANGE_MAX_M, range_max_m)                                                                \
+    FIELD(FALSE_TRACKS_PER_HOUR, false_tracks_per_hour)                                            \
+    FIELD(COAST_SCANS_MAX, coast_scans_max)                                                        \
+    FIELD(STANDING, standing)
+
+/* The decimal number that the float was written as, 0.009 and not 0.00899999961. */
+static double shortest_decimal(float value)
+{
+    char text[32];
+
+    snprintf(text, sizeof text, "%.7g", (double)value);
+    return strtod(text, NULL);
+}
+
+bool parameters_assign_preset(struct parameters *parameters, const char *name,
+                              char reason[PARAMETER_REASON_BYTES])
+{
+    static const char *const names[RHO_NUM_PRESETS] = {
+        [RHO_PRESET_EN_ROUTE] = "en_route", [RHO_PRESET_APPROACH] = "approach",
+        [RHO_PRESET_MARINE] = "marine",     [RHO_PRESET_COASTAL_HARBOUR] = "coastal_harbour",
+        [RHO_PRESET_TRAFFIC] = "traffic",   [RHO_PRESET_DRONE_DEFENCE] = "drone_defence"};
+
+    for (int i = 0; i < RHO_NUM_PRESETS; i++) {
+        if (strcmp(name, names[i]) == 0) {
+            struct rho_settings settings;
+
+            rho_settings_preset(&settings, (enum rho_preset)i);
+#define SUGGEST(id, field)                                                                         \
+    parameters_suggest_by(parameters, PARAMETER_##id, shortest_decimal((float)settings.field),     \
+                          SOURCE_PRESET);
+            PRESET_FIELDS(SUGGEST)
+#undef SUGGEST
+            parameters_suggest_by(parameters, PARAMETER_LATE_MAX_S,
+                                  fmin(PARAMETER_LATE_SCANS * (double)settings.scan_interval_s,
+                                       PARAMETER_LATE_LIMIT_S),
+                                  SOURCE_PRESET);
+            return true;
+        }
+    }
+    snprintf(
+        reason, PARAMETER_REASON_BYTES,
+        "'%.40s' is none of en_route, approach, marine, coastal_harbour, drone_defence, traffic",
+        name);
+    return false;
+}
+
 bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
                        enum parameter_source source, char reason[PARAMETER_REASON_BYTES])
 {
@@ -466,12 +529,6 @@ void parameters_set_defaults(struct parameters *parameters)
         parameters->value[i] = texts[i].value;
         parameters->source[i] = texts[i].has_default ? SOURCE_DEFAULT : SOURCE_UNSET;
     }
-}
-
-void parameters_suggest_by(struct parameters *parameters, enum parameter_id id, double value,
-                           enum parameter_source source)
-{
-    store_by_precedence(&parameters->value[id], &parameters->source[id], value, source);
 }
 
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value)

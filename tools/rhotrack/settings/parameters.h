@@ -211,6 +211,10 @@ enum parameter_id {
 
 #define PARAMETER_REASON_BYTES 256
 
+/* late_max_s is so many scan intervals, and PARAMETER_LATE_LIMIT_S at most. */
+#define PARAMETER_LATE_SCANS 2.0
+#define PARAMETER_LATE_LIMIT_S 60.0
+
 enum parameter_source {
     SOURCE_UNSET,
     SOURCE_DEFAULT,

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* parameters_convert: converts parameters to the library's settings and configurations. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/common.h"
 #include "rhotrack/detail/measurement.h"
@@ -13,9 +10,6 @@
 #define UNSTATED_MIN 0.1f
 #define UNSTATED_MAX 10.0f
 
-/* late_max_s is LATE_SCANS scan intervals of struct rho_settings, and LATE_LIMIT_S at most. */
-#define LATE_SCANS 2.0
-#define LATE_LIMIT_S 60.0
 #define INTERVAL_MIN_S 1e-3
 
 /* Fields of struct rho_settings that equal the parameter of the same name. */
@@ -38,62 +32,6 @@
     FIELD(STANDING, standing, uint32_t)                                                            \
     FIELD(WORK_MAX, work_max, uint32_t)
 
-/* Fields that rho_settings_preset chooses; of the others a method may have its own. */
-#define PRESET_FIELDS(FIELD)                                                                       \
-    FIELD(V_MIN_MPS, v_min_mps)                                                                    \
-    FIELD(V_MAX_MPS, v_max_mps)                                                                    \
-    FIELD(ACCEL_MAX_MPS2, accel_max_mps2)                                                          \
-    FIELD(PD, pd)                                                                                  \
-    FIELD(SIGMA_RANGE_M, sigma_range_m)                                                            \
-    FIELD(SIGMA_AZIMUTH_RAD, sigma_azimuth_rad)                                                    \
-    FIELD(SIGMA_ELEVATION_RAD, sigma_elevation_rad)                                                \
-    FIELD(SIGMA_RANGE_RATE_MPS, sigma_range_rate_mps)                                              \
-    FIELD(RANGE_MIN_M, range_min_m)                                                                \
-    FIELD(RANGE_MAX_M, range_max_m)                                                                \
-    FIELD(FALSE_TRACKS_PER_HOUR, false_tracks_per_hour)                                            \
-    FIELD(COAST_SCANS_MAX, coast_scans_max)                                                        \
-    FIELD(STANDING, standing)
-
-/* The decimal number that the float was written as, 0.009 and not 0.00899999961. */
-static double shortest_decimal(float value)
-{
-    char text[32];
-
-    snprintf(text, sizeof text, "%.7g", (double)value);
-    return strtod(text, NULL);
-}
-
-bool parameters_assign_preset(struct parameters *parameters, const char *name,
-                              char reason[PARAMETER_REASON_BYTES])
-{
-    static const char *const names[RHO_NUM_PRESETS] = {
-        [RHO_PRESET_EN_ROUTE] = "en_route", [RHO_PRESET_APPROACH] = "approach",
-        [RHO_PRESET_MARINE] = "marine",     [RHO_PRESET_COASTAL_HARBOUR] = "coastal_harbour",
-        [RHO_PRESET_TRAFFIC] = "traffic",   [RHO_PRESET_DRONE_DEFENCE] = "drone_defence"};
-
-    for (int i = 0; i < RHO_NUM_PRESETS; i++) {
-        if (strcmp(name, names[i]) == 0) {
-            struct rho_settings settings;
-
-            rho_settings_preset(&settings, (enum rho_preset)i);
-#define SUGGEST(id, field)                                                                         \
-    parameters_suggest_by(parameters, PARAMETER_##id, shortest_decimal((float)settings.field),     \
-                          SOURCE_PRESET);
-            PRESET_FIELDS(SUGGEST)
-#undef SUGGEST
-            parameters_suggest_by(parameters, PARAMETER_LATE_MAX_S,
-                                  fmin(LATE_SCANS * (double)settings.scan_interval_s, LATE_LIMIT_S),
-                                  SOURCE_PRESET);
-            return true;
-        }
-    }
-    snprintf(
-        reason, PARAMETER_REASON_BYTES,
-        "'%.40s' is none of en_route, approach, marine, coastal_harbour, drone_defence, traffic",
-        name);
-    return false;
-}
-
 struct rho_settings parameters_to_settings(const struct parameters *parameters)
 {
     const double *value = parameters->value;
@@ -105,7 +43,7 @@ struct rho_settings parameters_to_settings(const struct parameters *parameters)
     SAME_FIELDS(TAKE)
 #undef TAKE
     settings.scan_interval_s =
-        (float)fmax(value[PARAMETER_LATE_MAX_S] / LATE_SCANS, INTERVAL_MIN_S);
+        (float)fmax(value[PARAMETER_LATE_MAX_S] / PARAMETER_LATE_SCANS, INTERVAL_MIN_S);
     settings.area_is_fixed = parameters_has_value(parameters, PARAMETER_AREA_X_MIN_M);
     settings.area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
     settings.area.x_max_m = (float)value[PARAMETER_AREA_X_MAX_M];
@@ -141,8 +79,9 @@ bool parameters_adopt_settings(struct parameters *parameters, const struct rho_s
 #define CHANGE(id, name, type) {PARAMETER_##id, (double)before.name, (double)settings->name},
         SAME_FIELDS(CHANGE)
 #undef CHANGE
-            {PARAMETER_LATE_MAX_S, LATE_SCANS * (double)before.scan_interval_s,
-             fmin(LATE_SCANS * (double)settings->scan_interval_s, LATE_LIMIT_S)},
+            {PARAMETER_LATE_MAX_S, PARAMETER_LATE_SCANS * (double)before.scan_interval_s,
+             fmin(PARAMETER_LATE_SCANS * (double)settings->scan_interval_s,
+                  PARAMETER_LATE_LIMIT_S)},
     };
 
     if (!are_sensor_ranges_valid(parameters, settings)) {

@@ -9,15 +9,15 @@
 /* Rows that are remembered: a second of a radar of 5000 plots, or of a minute of aircraft. */
 enum { PLACES = 8192 };
 
-/* What a row says; its padding is 0. */
+/* What a row says, byte by byte. */
+enum {
+    SAID_BYTES = sizeof(int64_t) + sizeof(int32_t) + sizeof(uint32_t) + sizeof(struct rho_plot) +
+                 sizeof(struct rho_bearing) + 5 * sizeof(float)
+};
+
 struct said {
-    int64_t time_us;
-    int32_t sensor_id;
-    uint32_t measures;
-    struct rho_plot plot;
-    struct rho_bearing bearing;
-    float sensor_m[3], sector_rad[2];
     bool is_there;
+    unsigned char bytes[SAID_BYTES];
 };
 
 struct repeated_rows {
@@ -32,14 +32,34 @@ struct repeated_rows *repeated_rows_open(void)
     return must_calloc(1, sizeof(struct repeated_rows));
 }
 
+static size_t append(struct said *said, size_t at, const void *value, size_t size)
+{
+    memcpy(said->bytes + at, value, size);
+    return at + size;
+}
+
+static struct said what_row_says(const struct measurement_row *row)
+{
+    const float around[] = {row->sensor.x_m, row->sensor.y_m, row->sensor.z_m, row->sector_from_rad,
+                            row->sector_to_rad};
+    struct said said = {.is_there = true};
+    size_t at = append(&said, 0, &row->time_us, sizeof row->time_us);
+
+    at = append(&said, at, &row->sensor_id, sizeof row->sensor_id);
+    at = append(&said, at, &row->measures, sizeof row->measures);
+    at = append(&said, at, &row->plot, sizeof row->plot);
+    at = append(&said, at, &row->bearing, sizeof row->bearing);
+    append(&said, at, around, sizeof around);
+    return said;
+}
+
 /* FNV-1a. */
 static size_t place_of(const struct said *said)
 {
-    const unsigned char *bytes = (const unsigned char *)said;
     uint64_t hash = 14695981039346656037u;
 
-    for (size_t i = 0; i < sizeof *said; i++) {
-        hash = (hash ^ bytes[i]) * 1099511628211u;
+    for (size_t i = 0; i < SAID_BYTES; i++) {
+        hash = (hash ^ said->bytes[i]) * 1099511628211u;
     }
     return (size_t)(hash >> 32) % PLACES;
 }
@@ -73,20 +93,9 @@ bool repeated_rows_leaves_out(struct repeated_rows *rows, struct measurement_row
         row->has_measurement = false;
         return false;
     }
-    memset(&said, 0, sizeof said);
-    said.time_us = row->time_us;
-    said.sensor_id = row->sensor_id;
-    said.measures = row->measures;
-    said.plot = row->plot;
-    said.bearing = row->bearing;
-    said.sensor_m[0] = row->sensor.x_m;
-    said.sensor_m[1] = row->sensor.y_m;
-    said.sensor_m[2] = row->sensor.z_m;
-    said.sector_rad[0] = row->sector_from_rad;
-    said.sector_rad[1] = row->sector_to_rad;
-    said.is_there = true;
+    said = what_row_says(row);
     place = &rows->said[place_of(&said)];
-    if (memcmp(place, &said, sizeof said) != 0) {
+    if (!place->is_there || memcmp(place->bytes, said.bytes, SAID_BYTES) != 0) {
         *place = said;
         return false;
     }
