@@ -242,9 +242,8 @@ bool geodetic_radar_frame(struct geodetic_columns *geodetic, const struct row_ch
     if (is_said) {
         *frame = get_or_make_radar_frame(geodetic, sensor_id, true, on_earth);
     }
-    return !row_has_cell(check, COL_SENSOR_LAT_DEG) ||
-           check_distance_to_origin(check, COL_SENSOR_LAT_DEG, on_earth,
-                                    radar_axes_place_m(*frame));
+    return !is_said || check_distance_to_origin(check, COL_SENSOR_LAT_DEG, on_earth,
+                                                radar_axes_place_m(*frame));
 }
 
 /* The radar's frame; with an origin also for a radar whose position is given in metres. */
