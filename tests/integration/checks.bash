@@ -33,6 +33,16 @@ check() {
     fi
 }
 
+# wait_until SECONDS COMMAND...: until it succeeds.
+wait_until() {
+    local tries=$(($1 * 20))
+    shift
+    until "$@" 2>/dev/null; do
+        [ $((tries -= 1)) -gt 0 ] || return 1
+        sleep 0.05
+    done
+}
+
 # The last run ended with this exit code.
 exits() { [ "$status" -eq "$1" ]; }
 

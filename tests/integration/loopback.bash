@@ -11,13 +11,3 @@ if [ -n "${RHO_ON_LOOPBACK:-}" ]; then
 fi
 # Also where the network is not this script's own, nobody else is there.
 export LCM_DEFAULT_URL="udpm://239.255.76.67:$((20000 + $$ % 10000))?ttl=0"
-
-# wait_until SECONDS COMMAND...: until it succeeds.
-wait_until() {
-    local tries=$(($1 * 20))
-    shift
-    until "$@" 2>/dev/null; do
-        [ $((tries -= 1)) -gt 0 ] || return 1
-        sleep 0.05
-    done
-}

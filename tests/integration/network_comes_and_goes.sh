@@ -77,13 +77,7 @@ stop() {
     cp "$node_name.err" stderr
 }
 
-within_2_s() {
-    local tries=40
-    until "$@" 2>/dev/null; do
-        [ $((tries -= 1)) -gt 0 ] || return 1
-        sleep 0.05
-    done
-}
+within_2_s() { wait_until 2 "$@"; }
 
 heard() { grep -aoF RHO_NEWS "$node_name.lcm" 2>/dev/null | wc -l; }
 is_heard_since() { [ "$(heard)" -gt "$1" ]; }

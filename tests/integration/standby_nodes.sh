@@ -70,14 +70,6 @@ kill_all() {
 }
 trap kill_all EXIT
 
-within() { # seconds, command
-    local tries=$(($1 * 20))
-    shift
-    until "$@" 2>/dev/null; do
-        [ $((tries -= 1)) -gt 0 ] || return 1
-        sleep 0.05
-    done
-}
 said() { grep -q "Z rhotrack: standby: $2\$" "$1.err"; }
 count() { grep -c " $1 " lists; }                    # lists of an address
 publishes() { [ "$(tail -n 1 lists | cut -d ' ' -f 2)" = "$1" ]; }
@@ -97,13 +89,13 @@ each_once() { ! cut -d ' ' -f 3-5 lists | sort | uniq -d | grep .; }
 first=10.9.0.2 second=10.9.0.3
 
 begin one --standby --metrics 9467
-check 'alone it publishes after two seconds' within 3 said one \
+check 'alone it publishes after two seconds' wait_until 3 said one \
     'no other node publishes; this one does'
 begin two --standby --metrics 9467
-check 'a second one hears it, and is silent' within 3 said two "$first:[0-9]* publishes; .*"
+check 'a second one hears it, and is silent' wait_until 3 said two "$first:[0-9]* publishes; .*"
 ip netns exec radar "$program" publish plots.csv --lcm "$lcm_url" 2>publish.err &
 player=$!
-check 'tracks are published' within 6 alone "$first"
+check 'tracks are published' wait_until 6 alone "$first"
 sleep 2
 check 'by the first one alone' test "$(count "$second")" -eq 0
 metric() { # host
@@ -113,53 +105,56 @@ print(urllib.request.urlopen("http://127.0.0.1:9467/metrics").read().decode())' 
 }
 check 'which the metrics say' matches "$(metric one) $(metric two)" '1 0'
 rows=$(wc -l <two.csv)
-within 2 test "$(wc -l <one.csv)" -ge "$rows"
+has_rows() { [ "$(wc -l <"$1")" -ge "$2" ]; } # file, rows
+wait_until 2 has_rows one.csv "$rows"
 check 'the second one has the same tracks, byte by byte' cmp <(head -n $((rows - 1)) one.csv) \
     <(head -n $((rows - 1)) two.csv)
 check 'and they are many' test "$rows" -gt 40
 
 at=$(wc -l <lists)
 kill -KILL "${process[one]}"
-check 'the first one is killed: the second publishes' within 4 publishes "$second"
+check 'the first one is killed: the second publishes' wait_until 4 publishes "$second"
 check 'and says so' said two "$first:[0-9]* is silent; this node publishes"
 check 'all three tracks' alone "$second"
 check 'after three seconds at most' longest_gap 3 "$at"
-number() { tail -n 30 "$1" | grep confirmed | cut -d , -f 3 | sort -u; }
-check 'with the numbers they had' cmp <(number one.csv) <(number two.csv)
+numbers() { tail -n 30 "$1" | grep confirmed | cut -d , -f 2 | sort -u; }
+check 'with the numbers they had' cmp <(numbers one.csv) <(numbers two.csv)
+check 'of three tracks' test "$(numbers two.csv | wc -l)" -eq 3
 
 begin one --standby
-check 'the first one is started again: it is silent' within 3 said one \
+check 'the first one is started again: it is silent' wait_until 3 said one \
     "$second:[0-9]* publishes; .*"
 sleep 4
 check 'and stays so' alone "$second"
 
 at=$(wc -l <lists)
 kill -STOP "${process[two]}"
-check 'the second one is stopped: the first publishes' within 4 publishes "$first"
+check 'the second one is stopped: the first publishes' wait_until 4 publishes "$first"
 check 'after three seconds at most' longest_gap 3 "$at"
 sleep 1
 stopped=$(count "$second")
 kill -CONT "${process[two]}"
-check 'it goes on, and is silent' within 3 said two "$first:[0-9]* publishes; this node is silent"
+check 'it goes on, and is silent' wait_until 3 said two \
+    "$first:[0-9]* publishes; this node is silent"
 check 'the first one goes on' alone "$first"
 check 'the second one published nothing more' test "$(count "$second")" -eq "$stopped"
 
 at=$(wc -l <lists)
 ip -n one link set eth0 down
-check 'the cable of the first one is cut: the second publishes' within 4 publishes "$second"
+check 'the cable of the first one is cut: the second publishes' wait_until 4 publishes "$second"
 check 'after three seconds at most' longest_gap 3 "$at"
 sleep 2
 ip -n one link set eth0 up
 ip -n one route add 224.0.0.0/4 dev eth0
 is_back() { tail -n 3 one.err | grep -q "$second:[0-9]* publishes; this node is silent"; }
-check 'it is back, and falls silent' within 4 is_back
+check 'it is back, and falls silent' wait_until 4 is_back
 sleep 1
 check 'the second one goes on' alone "$second"
 check 'without a gap' longest_gap 1 "$((at + 40))"
 
 kill -KILL "${process[one]}"
 begin one
-check 'a node without --standby publishes: the second one falls silent' within 6 alone "$first"
+check 'a node without --standby publishes: the second one falls silent' wait_until 6 alone "$first"
 check 'no two lists are of one epoch and step' each_once
 status=0
 kill -INT "${process[two]}"

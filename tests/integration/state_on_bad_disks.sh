@@ -10,15 +10,6 @@
 export LCM_DEFAULT_URL=$lcm_url
 trap 'kill $(jobs -p) 2>/dev/null; umount -l disk 2>/dev/null; rm -rf "$folder"' EXIT
 
-wait_until() { # SECONDS COMMAND...: until it succeeds
-    local tries=$(($1 * 20))
-    shift
-    until "$@" 2>/dev/null; do
-        [ $((tries -= 1)) -gt 0 ] || return 1
-        sleep 0.05
-    done
-}
-
 # The node's minutes are seconds: its monotonic clock goes 60 times as fast. While there is a file
 # `slow`, fsync waits. The file `calls` has what each process syncs and renames.
 cat >minutes.c <<'C'
