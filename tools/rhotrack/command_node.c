@@ -607,15 +607,16 @@ static void hear_other_node(struct node *node, const struct transport_message *m
 static void pass_message_to_core_and_log(struct node *node, const struct transport_message *message)
 {
     const int64_t now_us = monotonic_clock_us();
+    const bool is_output = is_output_channel(message->channel);
     FILE *to = node->print.is_terminal ? NULL : stderr;
 
     standby_note_message(&node->standby, message, now_us);
-    if (is_output_channel(message->channel) && node->standby.is_on) {
+    if (is_output && node->standby.is_on) {
         hear_other_node(node, message, now_us, to);
-        return;
+    } else {
+        duplicate_senders_note_message(&node->senders, message, now_us, to);
     }
-    duplicate_senders_note_message(&node->senders, message, now_us, to);
-    if (is_output_channel(message->channel)) {
+    if (is_output) {
         return;
     }
     error_lines_set_time(message->received_us);
@@ -719,7 +720,7 @@ static void tell_service_manager(struct node *node, int64_t now_us)
 }
 
 /* Where this node begins to publish it tells its tracks and status at once. */
-static void publish_where_others_are_silent(struct node *node, int64_t now_us)
+static void take_standby_turn(struct node *node, int64_t now_us)
 {
     if (!standby_take_turn(&node->standby, node->is_waiting, now_us,
                            node->print.is_terminal ? NULL : stderr)) {
@@ -739,7 +740,7 @@ static void report_save_and_end_when_due(struct node *node)
 {
     int64_t now_us = monotonic_clock_us();
 
-    publish_where_others_are_silent(node, now_us);
+    take_standby_turn(node, now_us);
     if (now_us >= node->status_us) {
         node->status_us += STATUS_US;
         if (node->status_us <= now_us) { /* the program was suspended for a while */

@@ -339,6 +339,17 @@ void output_refuse_other_format(const char *path, const char *known)
     }
 }
 
+uint64_t hash_bytes(const void *data, size_t size)
+{
+    const unsigned char *bytes = data;
+    uint64_t hash = 14695981039346656037u;
+
+    for (size_t i = 0; i < size; i++) {
+        hash = (hash ^ bytes[i]) * 1099511628211u;
+    }
+    return hash;
+}
+
 char *path_join(const char *folder, const char *name)
 {
     size_t length = strlen(folder), bytes = length + strlen(name) + 2;

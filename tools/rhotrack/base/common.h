@@ -109,6 +109,9 @@ bool path_ends_with(const char *path, const char *suffix);
  */
 void output_refuse_other_format(const char *path, const char *known);
 
+/* FNV-1a of so many bytes. */
+uint64_t hash_bytes(const void *data, size_t size);
+
 /* Size of a regular file in bytes; 0 for anything else. */
 uint64_t regular_file_size_or_zero(const char *path);
 

@@ -423,8 +423,8 @@ static bool assign_allowed_sensors(struct parameters *parameters, const char *va
     return true;
 }
 
-void parameters_suggest_by(struct parameters *parameters, enum parameter_id id, double value,
-                           enum parameter_source source)
+static void store_common_value(struct parameters *parameters, enum parameter_id id, double value,
+                               enum parameter_source source)
 {
     store_by_precedence(&parameters->value[id], &parameters->source[id], value, source);
 }
@@ -468,14 +468,14 @@ bool parameters_assign_preset(struct parameters *parameters, const char *name,
 
             rho_settings_preset(&settings, (enum rho_preset)i);
 #define SUGGEST(id, field)                                                                         \
-    parameters_suggest_by(parameters, PARAMETER_##id, shortest_decimal((float)settings.field),     \
-                          SOURCE_PRESET);
+    store_common_value(parameters, PARAMETER_##id, shortest_decimal((float)settings.field),        \
+                       SOURCE_PRESET);
             PRESET_FIELDS(SUGGEST)
 #undef SUGGEST
-            parameters_suggest_by(parameters, PARAMETER_LATE_MAX_S,
-                                  fmin(PARAMETER_LATE_SCANS * (double)settings.scan_interval_s,
-                                       PARAMETER_LATE_LIMIT_S),
-                                  SOURCE_PRESET);
+            store_common_value(parameters, PARAMETER_LATE_MAX_S,
+                               fmin(PARAMETER_LATE_SCANS * (double)settings.scan_interval_s,
+                                    PARAMETER_LATE_LIMIT_S),
+                               SOURCE_PRESET);
             return true;
         }
     }
@@ -518,7 +518,7 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
         (id == PARAMETER_RANGE_RATE_SPAN_MPS && !check_range_rate_span(number, reason))) {
         return false;
     }
-    store_by_precedence(&parameters->value[id], &parameters->source[id], number, source);
+    store_common_value(parameters, (enum parameter_id)id, number, source);
     return true;
 }
 
@@ -533,7 +533,7 @@ void parameters_set_defaults(struct parameters *parameters)
 
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value)
 {
-    parameters_suggest_by(parameters, id, value, SOURCE_METHOD);
+    store_common_value(parameters, id, value, SOURCE_METHOD);
 }
 
 void parameters_set_assignment(struct parameters *parameters, const char *assignment)

@@ -332,10 +332,6 @@ void parameters_set_defaults(struct parameters *parameters);
  */
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
 
-/* The same with the precedence of a source. */
-void parameters_suggest_by(struct parameters *parameters, enum parameter_id id, double value,
-                           enum parameter_source source);
-
 /*
  * Suggests the settings of a kind of radar (rho_settings_preset), named as in Python: marine,
  * en_route, ... --config and --set override them, in any order. Returns false with the reason for

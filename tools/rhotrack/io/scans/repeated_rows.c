@@ -53,17 +53,6 @@ static struct said what_row_says(const struct measurement_row *row)
     return said;
 }
 
-/* FNV-1a. */
-static size_t place_of(const struct said *said)
-{
-    uint64_t hash = 14695981039346656037u;
-
-    for (size_t i = 0; i < SAID_BYTES; i++) {
-        hash = (hash ^ said->bytes[i]) * 1099511628211u;
-    }
-    return (size_t)(hash >> 32) % PLACES;
-}
-
 static bool has_empty_slots(const struct repeated_rows *rows, int32_t sensor_id)
 {
     for (unsigned i = 0; i < rows->num_with_slots; i++) {
@@ -94,7 +83,7 @@ bool repeated_rows_leaves_out(struct repeated_rows *rows, struct measurement_row
         return false;
     }
     said = what_row_says(row);
-    place = &rows->said[place_of(&said)];
+    place = &rows->said[(hash_bytes(said.bytes, SAID_BYTES) >> 32) % PLACES];
     if (!place->is_there || memcmp(place->bytes, said.bytes, SAID_BYTES) != 0) {
         *place = said;
         return false;

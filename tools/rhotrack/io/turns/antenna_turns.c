@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/common.h"
 #include "io/turns/turn_search.h"
@@ -93,11 +94,8 @@ static bool test_and_set_file_reported(const char *path)
 {
     static _Thread_local uint64_t said[FILES_REMEMBERED];
     static _Thread_local size_t num_said;
-    uint64_t sum = 14695981039346656037u;
+    const uint64_t sum = hash_bytes(path, strlen(path));
 
-    for (; *path; path++) {
-        sum = (sum ^ (uint8_t)*path) * 1099511628211u;
-    }
     for (size_t i = 0; i < num_said; i++) {
         if (said[i] == sum) {
             return true;
